@@ -98,6 +98,7 @@ static void list(const cable_bench_diagnosis *found, cable_bench_candidate left,
 /* What is wrong now, in words. */
 static void tell(const cable_bench_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != CABLE_BENCH_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -109,7 +110,7 @@ static void tell(const cable_bench_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, CABLE_BENCH_LIKELY, found->fault_class == CABLE_BENCH_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, CABLE_BENCH_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, CABLE_BENCH_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -98,6 +98,7 @@ static void list(const cable_open_diagnosis *found, cable_open_candidate left, c
 /* What is wrong now, in words. */
 static void tell(const cable_open_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != CABLE_OPEN_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -109,7 +110,7 @@ static void tell(const cable_open_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, CABLE_OPEN_LIKELY, found->fault_class == CABLE_OPEN_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, CABLE_OPEN_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, CABLE_OPEN_SMALL, "; or, if it is small, ");
     printf("\n");
 }

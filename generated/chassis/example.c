@@ -102,6 +102,7 @@ static void list(const chassis_bench_diagnosis *found, chassis_bench_candidate l
 /* What is wrong now, in words. */
 static void tell(const chassis_bench_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != CHASSIS_BENCH_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -113,7 +114,7 @@ static void tell(const chassis_bench_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, CHASSIS_BENCH_LIKELY, found->fault_class == CHASSIS_BENCH_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, CHASSIS_BENCH_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, CHASSIS_BENCH_SMALL, "; or, if it is small, ");
     printf("\n");
 }

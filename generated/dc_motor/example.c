@@ -102,6 +102,7 @@ static void list(const motor_diagnosis *found, motor_candidate left, const char 
 /* What is wrong now, in words. */
 static void tell(const motor_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != MOTOR_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -113,7 +114,7 @@ static void tell(const motor_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, MOTOR_LIKELY, found->fault_class == MOTOR_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, MOTOR_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, MOTOR_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -102,6 +102,7 @@ static void list(const drive_bench_diagnosis *found, drive_bench_candidate left,
 /* What is wrong now, in words. */
 static void tell(const drive_bench_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != DRIVE_BENCH_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -113,7 +114,7 @@ static void tell(const drive_bench_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, DRIVE_BENCH_LIKELY, found->fault_class == DRIVE_BENCH_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, DRIVE_BENCH_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, DRIVE_BENCH_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -102,6 +102,7 @@ static void list(const drive_as_drawn_diagnosis *found, drive_as_drawn_candidate
 /* What is wrong now, in words. */
 static void tell(const drive_as_drawn_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != DRIVE_AS_DRAWN_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -113,7 +114,7 @@ static void tell(const drive_as_drawn_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, DRIVE_AS_DRAWN_LIKELY, found->fault_class == DRIVE_AS_DRAWN_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, DRIVE_AS_DRAWN_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, DRIVE_AS_DRAWN_SMALL, "; or, if it is small, ");
     printf("\n");
 }

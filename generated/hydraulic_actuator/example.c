@@ -104,6 +104,7 @@ static void list(const hydraulic_actuator_diagnosis *found, hydraulic_actuator_c
 /* What is wrong now, in words. */
 static void tell(const hydraulic_actuator_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != HYDRAULIC_ACTUATOR_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -115,7 +116,7 @@ static void tell(const hydraulic_actuator_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, HYDRAULIC_ACTUATOR_LIKELY, found->fault_class == HYDRAULIC_ACTUATOR_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, HYDRAULIC_ACTUATOR_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, HYDRAULIC_ACTUATOR_SMALL, "; or, if it is small, ");
     printf("\n");
 }

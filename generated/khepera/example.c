@@ -116,6 +116,7 @@ static void list(const khepera_diagnosis *found, khepera_candidate left, const c
 /* What is wrong now, in words. */
 static void tell(const khepera_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != KHEPERA_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -127,7 +128,7 @@ static void tell(const khepera_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, KHEPERA_LIKELY, found->fault_class == KHEPERA_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, KHEPERA_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, KHEPERA_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -112,6 +112,7 @@ static void list(const khepera_built_diagnosis *found, khepera_built_candidate l
 /* What is wrong now, in words. */
 static void tell(const khepera_built_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != KHEPERA_BUILT_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -123,7 +124,7 @@ static void tell(const khepera_built_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, KHEPERA_BUILT_LIKELY, found->fault_class == KHEPERA_BUILT_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, KHEPERA_BUILT_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, KHEPERA_BUILT_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -118,6 +118,7 @@ static void list(const khepera_encoders_diagnosis *found, khepera_encoders_candi
 /* What is wrong now, in words. */
 static void tell(const khepera_encoders_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != KHEPERA_ENCODERS_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -129,7 +130,7 @@ static void tell(const khepera_encoders_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, KHEPERA_ENCODERS_LIKELY, found->fault_class == KHEPERA_ENCODERS_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, KHEPERA_ENCODERS_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, KHEPERA_ENCODERS_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -118,6 +118,7 @@ static void list(const khepera_plausible_diagnosis *found, khepera_plausible_can
 /* What is wrong now, in words. */
 static void tell(const khepera_plausible_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != KHEPERA_PLAUSIBLE_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -129,7 +130,7 @@ static void tell(const khepera_plausible_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, KHEPERA_PLAUSIBLE_LIKELY, found->fault_class == KHEPERA_PLAUSIBLE_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, KHEPERA_PLAUSIBLE_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, KHEPERA_PLAUSIBLE_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -102,6 +102,7 @@ static void list(const microphone_diagnosis *found, microphone_candidate left, c
 /* What is wrong now, in words. */
 static void tell(const microphone_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != MICROPHONE_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -113,7 +114,7 @@ static void tell(const microphone_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, MICROPHONE_LIKELY, found->fault_class == MICROPHONE_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, MICROPHONE_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, MICROPHONE_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -104,6 +104,7 @@ static void list(const oven_diagnosis *found, oven_candidate left, const char *b
 /* What is wrong now, in words. */
 static void tell(const oven_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != OVEN_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -115,7 +116,7 @@ static void tell(const oven_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, OVEN_LIKELY, found->fault_class == OVEN_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, OVEN_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, OVEN_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -100,6 +100,7 @@ static void list(const quarter_car_diagnosis *found, quarter_car_candidate left,
 /* What is wrong now, in words. */
 static void tell(const quarter_car_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != QUARTER_CAR_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -111,7 +112,7 @@ static void tell(const quarter_car_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, QUARTER_CAR_LIKELY, found->fault_class == QUARTER_CAR_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, QUARTER_CAR_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, QUARTER_CAR_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -100,6 +100,7 @@ static void list(const rc_loop_diagnosis *found, rc_loop_candidate left, const c
 /* What is wrong now, in words. */
 static void tell(const rc_loop_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != RC_LOOP_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -111,7 +112,7 @@ static void tell(const rc_loop_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, RC_LOOP_LIKELY, found->fault_class == RC_LOOP_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, RC_LOOP_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, RC_LOOP_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -100,6 +100,7 @@ static void list(const rigid_gear_diagnosis *found, rigid_gear_candidate left, c
 /* What is wrong now, in words. */
 static void tell(const rigid_gear_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != RIGID_GEAR_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -111,7 +112,7 @@ static void tell(const rigid_gear_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, RIGID_GEAR_LIKELY, found->fault_class == RIGID_GEAR_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, RIGID_GEAR_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, RIGID_GEAR_SMALL, "; or, if it is small, ");
     printf("\n");
 }

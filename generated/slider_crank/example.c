@@ -100,6 +100,7 @@ static void list(const slider_crank_diagnosis *found, slider_crank_candidate lef
 /* What is wrong now, in words. */
 static void tell(const slider_crank_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != SLIDER_CRANK_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -111,7 +112,7 @@ static void tell(const slider_crank_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, SLIDER_CRANK_LIKELY, found->fault_class == SLIDER_CRANK_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, SLIDER_CRANK_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, SLIDER_CRANK_SMALL, "; or, if it is small, ");
     printf("\n");
 }

@@ -100,6 +100,7 @@ static void list(const two_tanks_diagnosis *found, two_tanks_candidate left, con
 /* What is wrong now, in words. */
 static void tell(const two_tanks_diagnosis *found, long tick)
 {
+    const bool sure = found->fault_class != TWO_TANKS_UNKNOWN;
     const char *between = ": ";
     int k;
 
@@ -111,7 +112,7 @@ static void tell(const two_tanks_diagnosis *found, long tick)
         }
     }
     printf(" in alarm");
-    list(found, TWO_TANKS_LIKELY, found->fault_class == TWO_TANKS_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, TWO_TANKS_LIKELY, sure ? "; one of " : "; perhaps ");
     list(found, TWO_TANKS_SMALL, "; or, if it is small, ");
     printf("\n");
 }
