@@ -88,11 +88,11 @@ def run(asked: Run) -> Result:
             branches = max([branches, *(int(n) for n in re.findall(r" cov: (\d+) ", said))])
             if counts.read()[0] < asked.count:
                 ended.append(_end(folder, status, said))
-        if asked.keep:
-            _keep(asked, folder)
         found = [*ended, *_broken(folder / "findings")]
         answers = len((folder / "answers").read_text("utf-8").splitlines())
         texts, sound, slowest, memory = counts.read()
+        if asked.keep:
+            _keep(asked, folder)
     taken = time.perf_counter() - start
     return Result(asked.kind, texts, sound, answers, branches, slowest, memory, found, taken)
 
@@ -148,7 +148,8 @@ def _broken(folder: Path) -> list[Finding]:
 def _keep(asked: Run, folder: Path) -> None:
     """Make the corpus of the smallest texts that pass all branches; of a few bytes in all."""
     (folder / "merged").mkdir()
-    status, said = _process(asked, folder, ["-merge=1", "merged", "grown", "seeds"])
+    options = ["-merge=1", "-use_counters=0", "merged", "grown", "seeds"]
+    status, said = _process(asked, folder, options)
     if status != 0:
         raise RuntimeError(f"libFuzzer could not merge:\n{said[-2000:]}")
     seeds = set(import_module(asked.module).KINDS[asked.kind].seeds())

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import random
 import resource
+import shlex
 import sys
 import time
 from collections.abc import Callable
@@ -114,7 +115,9 @@ def main() -> None:
     # Texts of any length from the first one on, and each changed once: more changes, one upon
     # another, reach less.
     ways = ["-len_control=0", "-mutate_depth=1", f"-dict={folder / 'words'}"]
-    argv = [sys.argv[0], *limits, *ways, f"-artifact_prefix={folder}/", *options]
+    # To merge, libFuzzer has a shell begin further processes by the first of these words.
+    again = [sys.executable, "-m", "tests.fuzz.one_kind", module, name, place, megabytes]
+    argv = [shlex.join(again), *limits, *ways, f"-artifact_prefix={folder}/", *options]
     atheris.Setup(argv, reader, custom_mutator=mutator(kind, words))
     atheris.Fuzz()
 

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import time
+from collections import deque
+from itertools import count
 
 import atheris
 
 from tests.fuzz.attempt import Kind
 
 WORDS = ("word",)
-ENDLESS, HUNGRY = b"endless, " * 20, b"hungry, " * 20  # too long to be made again
+# Too long to be made again by chance.
+ENDLESS, STUCK, HUNGRY = b"endless, " * 20, b"stuck, " * 20, b"hungry, " * 20
 _kept: list[bytes] = []
 
 
@@ -34,6 +37,13 @@ def endless(text: bytes) -> str:
     return f"sound {len(text) % 5}"
 
 
+def stuck(text: bytes) -> str:
+    """Goes into C for one text and does not come back: no signal reaches Python there."""
+    if text == STUCK:
+        deque(count(), maxlen=0)
+    return f"sound {len(text) % 5}"
+
+
 def hungry(text: bytes) -> str:
     """Takes memory for one text, and all of it if nobody ends that."""
     while text == HUNGRY:
@@ -45,5 +55,6 @@ def hungry(text: bytes) -> str:
 KINDS = {
     "deep": Kind(deep, lambda: [b"abcdefgh"]),
     "endless": Kind(endless, lambda: [b"first", ENDLESS]),
+    "stuck": Kind(stuck, lambda: [b"first", STUCK]),
     "hungry": Kind(hungry, lambda: [b"first", HUNGRY]),
 }

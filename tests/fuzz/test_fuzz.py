@@ -94,7 +94,9 @@ def test_branches_lead_the_fuzzer(planted: str) -> None:
     assert found.texts >= 50_000 and found.answers == 5
 
 
-@pytest.mark.parametrize(("name", "what"), [("endless", "timeout"), ("hungry", "oom")])
+@pytest.mark.parametrize(
+    ("name", "what"), [("endless", "timeout"), ("stuck", "timeout"), ("hungry", "oom")]
+)
 def test_what_takes_too_much_is_ended(planted: str, name: str, what: str) -> None:
     """The process with it; the next one goes on with the other texts."""
     found = run(Run(name, 2_000, module=planted, seconds=2, memory=100))
