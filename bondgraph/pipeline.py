@@ -7,7 +7,8 @@ from functools import cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from bondgraph.text.diagnostic import CompileError, Report
+from bondgraph.text.diagnostic import CompileError, Report, Trouble
+from bondgraph.text.limits import RATE
 from bondgraph.text.numerals import plural
 from bondgraph.text.renamed import by_new_name
 from bondgraph.text.source import Source, Span
@@ -847,13 +848,19 @@ def compile(
     return Compilation(source, model, Options(**options))
 
 
+class WrongOption(ValueError, Trouble):
+    """A number that no compilation can be asked for; a command that has it of a log says so."""
+
+
 def _checked(options: Options) -> Options:
     """The options, with tuples for lists; raises ValueError or TypeError for what none can be."""
-    for name in ("rate", "bandwidth", "resolution"):
+    for name in ("rate", "bandwidth"):
         value = getattr(options, name)
-        every = name == "resolution" and value == 0.0  # term is seen
-        if value is not None and not every and not 0.0 < value < float("inf"):
-            raise ValueError(f"{name} must be a positive number, not {value!r}")
+        if value is not None and not 1.0 / RATE <= value <= RATE:
+            message = f"{name} must be from {1.0 / RATE:g} to {RATE:g}, not {value:g}"
+            raise WrongOption(f"{message}; of a log, see that the unit of its times is right")
+    if not 0.0 <= options.resolution < float("inf"):  # 0: each term is seen
+        raise WrongOption(f"resolution must be a positive number, not {options.resolution!r}")
     form = options.form
     if isinstance(form, str) and form not in ("derivative", "observer"):
         raise ValueError(f"form is derivative, observer or names of residuals, not {form!r}")

@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph.cli import console, fleet
 from bondgraph.cli.log_options import form_of, logged, note
-from bondgraph.cli.options import count, isolating, positive, read_tuning, realised, realising
+from bondgraph.cli.options import (
+    count,
+    frequency,
+    isolating,
+    positive,
+    read_tuning,
+    realised,
+    realising,
+)
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
@@ -83,9 +91,9 @@ def sampled(add: Callable[..., object]) -> None:
         help="its speed (default: 115200)")  # fmt: skip
     add("--mqtt", metavar="HOST[:PORT]/TOPIC", help="samples from a topic of an MQTT broker")
     logged(add)
-    add("--rate", metavar="HZ", type=positive,
+    add("--rate", metavar="HZ", type=frequency,
         help=f"samples a second (default: of a file its own, else {Options().rate:g})")  # fmt: skip
-    add("--bandwidth", metavar="RAD/S", type=positive,
+    add("--bandwidth", metavar="RAD/S", type=frequency,
         help="bandwidth of the filter (default: by rate and length of the log)")  # fmt: skip
     add("--tuning", metavar="FILE.json",
         help="limits from `bondgraph tune` (default: learned from the first seconds)")  # fmt: skip
