@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[2]
 #: How a text stands for the bytes of a file, even where they are no UTF-8.
 ENCODING, BYTES = "utf-8", "surrogateescape"
 
-LONGEST = 20_000  # bytes or letters of a text
+LONGEST = 8_000  # bytes or letters of a text: longer ones take long and reach the same
 
 _TOKEN = re.compile(r"\s+|#[^\n]*|\"[^\"\n]*\"|\d+(?:\.\d+)?(?:[eE][+-]?\d+)?|\w+|->|<-|\.\.|\+-|.")
 

@@ -5,7 +5,9 @@
 MODULE has `KINDS`, OPTIONs are those of libFuzzer. All that is found is in FOLDER at once, as a
 process that hangs, or takes too much memory, is ended by libFuzzer from one moment to the next:
 `counts` (see `Counts`), a line in `answers` for each new one, and `findings` with a text and its
-trace each. The package is instrumented when it is imported, so atheris has to come first.
+trace each. What is too slow may also be found as KeyError('__import__'): where atheris interrupts
+the making of a named tuple, it can import nothing. The package is instrumented when it is imported,
+so atheris has to come first.
 """
 
 from __future__ import annotations

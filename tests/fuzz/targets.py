@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from bondgraph.cli.console import _some
 from bondgraph.frontend.incidence import read_table
 from bondgraph.frontend.read import decode
 from bondgraph.passes.elaboration import instantiate
@@ -59,7 +60,7 @@ def _shape(text: str) -> str:
 
 
 def _told(report: Report) -> str:
-    render(report.diagnostics, color=True).encode()
+    render(_some(tuple(report.diagnostics)), color=True).encode()
     for d in report.diagnostics:
         if d.severity == "error":
             assert d.labels and d.help, f"`{d.code}` has no place or no remedy"
@@ -107,7 +108,7 @@ def checked(data: bytes) -> str:
         if diagnostic.severity == "error":
             assert diagnostic.labels, f"`{diagnostic.code}` names no place"
             assert diagnostic.help, f"`{diagnostic.code}` gives no remedy"
-    render(diagnostics, color=True).encode()
+    render(_some(diagnostics), color=True).encode()
     json.dumps(as_json(diagnostics))
     return answer
 
@@ -124,7 +125,7 @@ def compiled(data: bytes) -> str:
         with _few_parts():
             paths = compilation.write(out, targets=["c", "python"])
     except CompileError as error:
-        render(error.diagnostics, color=True).encode()
+        render(_some(error.diagnostics), color=True).encode()
         assert not out.exists() or not any(out.iterdir()), "half written"
         return f"refused {error.diagnostics[0].code}" if error.diagnostics else _shape(str(error))
     assert all(Path(p).stat().st_size for p in paths)
