@@ -18,9 +18,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
     from typing import TypedDict, Unpack
 
+    from bondgraph.backends.decision import Tuned
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
-    from bondgraph.ir.artifact import Artifact
+    from bondgraph.ir.artifact import Artifact, BinaryArtifact
     from bondgraph.ir.causal import CausalGraph, Conflict
     from bondgraph.ir.equation_system import EquationSystem
     from bondgraph.ir.graph import BondGraph
@@ -591,8 +592,18 @@ class Compilation:
         return thresholds(*own, observers=self._followed)
 
     @cached_property
-    def artifacts(self) -> tuple[Artifact, ...]:
-        """The files, as text; raises ValueError for a target that is not there."""
+    def residual_units(self) -> dict[str, str]:
+        """The SI unit of each residual, "" where that is not known."""
+        from bondgraph.passes.relation.residual_units import residual_units
+
+        return residual_units(self.graph, [r.residual for r in self.residuals])
+
+    @cached_property
+    def artifacts(self) -> tuple[Artifact | BinaryArtifact, ...]:
+        """The files; raises ValueError for a target that is not there.
+
+        All are text but those of the target `fmu`. Raises `Trouble` where these cannot be compiled.
+        """
         return self._emitted(self.options.targets)
 
     def write(
@@ -750,18 +761,25 @@ class Compilation:
         rate, bandwidth, resolution = self.options[:3]
         return LowerOptions(rate, bandwidth, resolution=resolution)
 
-    def _emitted(self, targets: Sequence[str]) -> tuple[Artifact, ...]:
+    def _emitted(self, targets: Sequence[str]) -> tuple[Artifact | BinaryArtifact, ...]:
         from bondgraph.backends.emit import emit
 
-        if self.options.tuning is None:
-            return emit(self.program, tuple(targets), self._bounds)
-        from bondgraph.backends.decision import Tuned
+        languages = tuple(name for name in targets if name != "fmu")
+        found = emit(self.program, languages, self._bounds, self._tuned) if languages else ()
+        return (*found, *self._fmus) if "fmu" in targets else found
+
+    @property
+    def _tuned(self) -> Tuned:
+        """The limits of the tuning, for code."""
+        from bondgraph.backends.decision import UNTUNED, Tuned
         from bondgraph.runtime.diagnosis.cusum import on_board
 
         own = self.options.tuning
+        if own is None:
+            return UNTUNED
         limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
         words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
-        return emit(self.program, tuple(targets), self._bounds, Tuned(limits, words))
+        return Tuned(limits, words)
 
     def tuned(self, tuning: Tuning) -> Compilation:
         """The same for the filter of a tuning, with its limits in the code.
@@ -771,6 +789,33 @@ class Compilation:
         if tuning.model != self.program.digest:
             raise ValueError("it is of another model, or of other options")
         return self.with_options(bandwidth=tuning.bandwidth, tuning=tuning)
+
+    @cached_property
+    def _fmus(self) -> tuple[BinaryArtifact, ...]:
+        """The monitor, and the machine where there can be one, for each version of FMI."""
+        from bondgraph.backends.fmu.machine_core import machine_core
+        from bondgraph.backends.fmu.monitor_core import monitor_core
+        from bondgraph.backends.fmu.package import VERSIONS, fmu, packed
+        from bondgraph.backends.rates import rate_language
+        from bondgraph.runtime.c_library import NativeError, built
+        from bondgraph.runtime.simulation.algebraic_loops import SINGULAR
+        from bondgraph.runtime.simulation.native_machine import BEYOND
+        from bondgraph.runtime.simulation.open_machine import open_machine
+
+        cores = [monitor_core(self.program, self._bounds, self.residual_units)]
+        machine = open_machine(self.equations, self.integral, rate_language(), self.report)
+        if machine is not None:
+            cores.append(machine_core(self.program.name, machine, BEYOND, SINGULAR))
+        wanted = [fmu(core, version) for version in VERSIONS for core in cores]
+        try:
+            return tuple(
+                packed(one, built(one.sources, one.compiled, f"the FMU {one.identifier}"))
+                for one in wanted
+            )
+        except NativeError as error:
+            raise Trouble(
+                f"{error}; an FMU holds compiled code: install a C compiler, or name one in CC"
+            ) from error
 
     @property
     def _bounds(self) -> Program | None:

@@ -46,6 +46,9 @@ def environment(html: bool = False) -> Environment:
     return made
 
 
-def fill(template: str, holes: dict[str, object]) -> str:
-    """The text of `template` (`c/residuals.h.j2`); raises UndefinedError for an unfilled hole."""
-    return environment().get_template(template).render(holes)
+def fill(template: str, holes: dict[str, object], html: bool = False) -> str:
+    """The text of `template` (`c/residuals.h.j2`); raises UndefinedError for an unfilled hole.
+
+    With `html` what fills a hole is escaped, for XML too.
+    """
+    return environment(html).get_template(template).render(holes)

@@ -19,7 +19,7 @@ from hashlib import file_digest, sha256
 from pathlib import Path
 from typing import Literal
 
-from bondgraph.ir.artifact import Artifact
+from bondgraph.ir.artifact import Artifact, BinaryArtifact
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
 from bondgraph.text.printable import printable
@@ -54,7 +54,9 @@ class ForeignFiles(Trouble):
         )
 
 
-def write(artifacts: Iterable[Artifact], folder: str | os.PathLike[str]) -> tuple[str, ...]:
+def write(
+    artifacts: Iterable[Artifact | BinaryArtifact], folder: str | os.PathLike[str]
+) -> tuple[str, ...]:
     """Write the files below `folder`, and return their paths (folder included), in order.
 
     Everything is first written to a folder inside and then moved, so that a failure before that
@@ -66,7 +68,10 @@ def write(artifacts: Iterable[Artifact], folder: str | os.PathLike[str]) -> tupl
     in the way, `Trouble` where another process writes there or the disk refuses while files are
     moved, OSError if it refuses before, ValueError for a path that leads out of the folder.
     """
-    files = {a.path: printable(a.text).encode() for a in artifacts}
+    files = {
+        a.path: a.data if isinstance(a, BinaryArtifact) else printable(a.text).encode()
+        for a in artifacts
+    }
     for path in files:
         if not _is_below(path):
             raise ValueError(f"{path} is not a path below the output folder")

@@ -51,7 +51,8 @@ def arguments(parser: ArgumentParser) -> None:
         "--target",
         metavar="LANGUAGE",
         action="append",
-        help=f"emit this language; may be repeated (default: {', '.join(defaults.targets)})",
+        help="emit this language, or `fmu` for FMUs (docs/fmu.md); may be repeated (default:"
+        f" {', '.join(defaults.targets)})",
     )
     further(parser)
     realised(parser)
@@ -62,9 +63,10 @@ def run(args: Namespace) -> int:
     if args.target:
         from bondgraph.backends.target import targets
 
-        unknown = [name for name in args.target if name not in targets()]
+        every = (*targets(), "fmu")
+        unknown = [name for name in args.target if name not in every]
         if unknown:
-            listed = ", ".join(targets())
+            listed = ", ".join(every)
             print(f"error: no target is called {unknown[0]}; there are {listed}", file=sys.stderr)
             return 2
     compilation = _opened(args)

@@ -10,7 +10,6 @@ from bondgraph import Options
 from bondgraph.cli import monitor
 from bondgraph.cli.log_options import note, operating_of
 from bondgraph.cli.options import isolating, positive, read_tuning, realised, realising
-from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
@@ -202,7 +201,7 @@ def _machine(args: Namespace, compilation: Compilation) -> Machine:
 
     program, graph = compilation.program, compilation.graph
     known = args.serial or args.mqtt or {"-": "standard input"}.get(args.log, args.log)
-    units = residual_units(compilation)
+    units = compilation.residual_units
     return Machine(
         graph.name,
         graph.doc,

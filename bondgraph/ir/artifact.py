@@ -10,3 +10,10 @@ class Artifact(NamedTuple):
 
     path: str
     text: str
+
+
+class BinaryArtifact(NamedTuple):
+    """Path below the output folder, and bytes: what is no text."""
+
+    path: str
+    data: bytes

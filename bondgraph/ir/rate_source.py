@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from bondgraph.ir.graph import Input
+from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
 
@@ -30,3 +32,47 @@ class RateSource(NamedTuple):
     states: int
     signals: int
     results: int
+
+
+class OpenParameter(NamedTuple):
+    """A parameter of a machine that may be set while it runs, or only before (`fixed`).
+
+    `value` is that of the model, in SI; NaN where it has none.
+    """
+
+    name: str
+    value: float
+    unit: str
+    doc: str
+    origin: Span
+    fixed: bool
+
+
+class MachineSensor(NamedTuple):
+    """A sensor of a machine: `counts` a turn of an encoder, 0.0 for a plain number."""
+
+    name: str
+    unit: str
+    doc: str
+    origin: Span
+    counts: float
+
+
+class OpenMachine(NamedTuple):
+    """State equations whose parameters stay open: what it takes to run them elsewhere.
+
+    In `source` the constants `p` begin with the `parameters`; `constants` are the others. The
+    states have names, values at the start, and a `scale`: how much of each goes with a unit of
+    effort or flow. `signals` are the names of the inputs `u`, None for what stays zero; `inputs`
+    those of the model. The outputs are the `sensors`.
+    """
+
+    source: RateSource
+    parameters: tuple[OpenParameter, ...]
+    constants: tuple[float, ...]
+    states: tuple[str, ...]
+    start: tuple[float, ...]
+    scale: tuple[float, ...]
+    signals: tuple[str | None, ...]
+    inputs: tuple[Input, ...]
+    sensors: tuple[MachineSensor, ...]

@@ -45,7 +45,7 @@ def library(
     raise AttributeError for a function that is not there. `tell` is told, in one line, of a cache
     that cannot be trusted.
     """
-    compiler = shlex.split(os.environ.get("CC", "")) or ["cc"]
+    compiler = _compiler()
     name = _digest(files, [*compiler, *_FLAGS], _version(tuple(compiler)))
     libraries = user_cache("so", lambda why: tell(f"{why}; {what} are compiled at each start"))
     kept = libraries.find(name) if libraries else iter(())
@@ -58,11 +58,31 @@ def library(
                 taken = libraries.keep(name, built.read_bytes()) if libraries else None
                 found = (_load(taken, sound) if taken else None) or _load(built, sound)
         except OSError as error:
-            place = error.filename or tempfile.gettempdir()
-            raise NativeError(f"{what} cannot be compiled: {error.strerror}: {place}") from error
+            raise _unwritten(what, error) from error
     if found is None:
         raise NativeError(f"what {compiler[0]} made cannot be loaded")
     return found
+
+
+def built(files: Sequence[Artifact], sources: Sequence[str], what: str) -> bytes:
+    """The library of the `sources` among the files, for others to load; raises NativeError."""
+    try:
+        with folder_aside(Path(tempfile.gettempdir())) as temporary:
+            made = temporary / "built"
+            _compile(files, sources, what, _compiler(), made)
+            return made.read_bytes()
+    except OSError as error:
+        raise _unwritten(what, error) from error
+
+
+def _compiler() -> list[str]:
+    """The words of the command that compiles C."""
+    return shlex.split(os.environ.get("CC", "")) or ["cc"]
+
+
+def _unwritten(what: str, error: OSError) -> NativeError:
+    place = error.filename or tempfile.gettempdir()
+    return NativeError(f"{what} cannot be compiled: {error.strerror}: {place}")
 
 
 @cache

@@ -12,7 +12,7 @@ from bondgraph.backends.drawing.style import colours, inside
 from bondgraph.backends.report.confusion import isolability
 from bondgraph.backends.report.content import Content, Group, Signatures
 from bondgraph.backends.report.episode import Episode
-from bondgraph.backends.templates import codegen, environment
+from bondgraph.backends.templates import codegen, fill
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -49,7 +49,7 @@ def page(content: Content) -> str:
         "episodes": [_episode(e, f"e{k}") for k, e in enumerate(content.episodes, 1)],
         "words": _SEVERITY,
     }
-    return environment(html=True).get_template("report/page.html.j2").render(holes)
+    return fill("report/page.html.j2", holes, html=True)
 
 
 def _sections(content: Content) -> list[tuple[str, str]]:

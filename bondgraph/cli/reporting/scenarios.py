@@ -18,7 +18,6 @@ from bondgraph.backends.report.episode import (
     Said,
     Trace,
 )
-from bondgraph.cli.residual_units import residual_units
 from bondgraph.runtime.monitoring.verdict import Verdict, described
 from bondgraph.runtime.monitoring.whole_logs import on_grid
 from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
@@ -104,7 +103,7 @@ def _watched(compilation: Compilation, run: Run) -> Watched | None:
 
 def _traces(compilation: Compilation, seen: Watched) -> Iterator[Trace]:
     """The residuals, each with the whole threshold that it is decided by."""
-    units = residual_units(compilation)
+    units = compilation.residual_units
     for k, info in enumerate(compilation.program.residuals):
         if not info.unavailable:
             unit = units.get(info.path, "")

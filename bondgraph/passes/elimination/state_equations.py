@@ -36,7 +36,8 @@ class Wanted(NamedTuple):
     below one are taken as being at rest (quasi-static); values, inputs and sensors named in
     `disturbed` may be wrong; `numbers` are parameters that have another value than the model says.
     Where sensors are `measured` they are known signals, no parameter is taken to be nothing, and
-    the equations hold no switch.
+    the equations hold no switch. Parameters that are `open` may still change: one that is zero is
+    not taken to be nothing.
     """
 
     modes: Mapping[str, bool] = {}
@@ -44,6 +45,7 @@ class Wanted(NamedTuple):
     disturbed: tuple[str, ...] = ()
     numbers: Mapping[str, float] = {}
     measured: bool = False
+    open: frozenset[str] = frozenset()
 
 
 def state_equations(
@@ -237,7 +239,7 @@ class _Causaliser:
     def _absent(self) -> dict[Expr, Expr]:
         """Parameters that are zero: an inertia of nothing stores nothing."""
         nominal = Nominal(self.graph)
-        disturbed = set(self.wanted.disturbed)
+        disturbed = {*self.wanted.disturbed, *self.wanted.open}
         numbers = self.wanted.numbers
         zero = {}
         for value in () if self.wanted.measured else self.graph.values:

@@ -213,7 +213,7 @@ class Machine:
 
         `solved` writes those of a block that is a loop, and makes its unknowns known.
         """
-        needed = self._needed(wanted)
+        needed = self.needed(wanted)
         for number, block in enumerate(self.equations.blocks):
             if number not in needed:
                 continue
@@ -229,7 +229,7 @@ class Machine:
         leaf = kinds.get(signal.name) or pool.symbol(signal.name, Kind.INPUT)
         return pool.der(leaf, signal.order)
 
-    def _needed(self, wanted: Sequence[Expr]) -> set[int]:
+    def needed(self, wanted: Sequence[Expr]) -> set[int]:
         """The blocks that the wanted expressions rest on."""
         giver = {u: k for k, b in enumerate(self.equations.blocks) for u in b.unknowns}
         needed: set[int] = set()

@@ -26,6 +26,7 @@ from bondgraph.runtime.simulation.algebraic_loops import DENSE, SINGULAR, invert
 from bondgraph.runtime.simulation.code import Code, Numbers, Shared
 from bondgraph.runtime.simulation.machine import Machine, equations_of
 from bondgraph.runtime.simulation.scenario import Course
+from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
 #: A rate that no machine has.
@@ -74,8 +75,12 @@ class Segment(NamedTuple):
     moving: tuple[int, ...]
 
 
-class _Unsuitable(Exception):
-    """What is left to Python."""
+class Unsuitable(Exception):
+    """What is left to Python, and why; `origins` are the laws that it is about."""
+
+    def __init__(self, why: str, origins: Sequence[Span] = ()) -> None:
+        super().__init__(why)
+        self.origins = tuple(origins)
 
 
 class NativeMachine:
@@ -132,7 +137,7 @@ class NativeMachine:
             self._code = _Compiled(
                 self._machine, self._followed, self._coding, self._notes.append
             )
-        except _Unsuitable:
+        except Unsuitable:
             return
         except NativeError as error:
             self._notes.append(f"{error}; the machine runs in Python, which takes twice as long")
@@ -186,7 +191,7 @@ class _Compiled:
         coding: Coding,
         tell: Callable[[str], None],
     ) -> None:
-        written = _Written(machine, followed, coding.language)
+        written = Written(machine, followed, coding.language)
         file = coding.file(written.source, BEYOND, SINGULAR)
         found = c_library.library([file], [file.path], "the rates", _is_sound, tell)
         # no other thread has to run during a call that is so short
@@ -263,25 +268,31 @@ def _is_sound(library: ctypes.CDLL) -> bool:
     return int(library.machine_size()) == ctypes.sizeof(_Record)
 
 
-class _Written:
+class Written:
     """The source of a machine, the constants and the courses of points that it reads.
 
-    Raises `_Unsuitable` for a machine that is left to Python.
+    Constants go behind the `numbers` that are there. Raises `Unsuitable` for a machine that is
+    left to Python.
     """
 
     def __init__(
-        self, machine: Machine, followed: Sequence[Followed], language: Language
+        self,
+        machine: Machine,
+        followed: Sequence[Followed],
+        language: Language,
+        numbers: Numbers | None = None,
     ) -> None:
         self._machine = machine
         self._pool = machine.equations.graph.pool
-        self.numbers = Numbers()
+        self.numbers = numbers or Numbers()
         self._shared = Shared(language, {}, self.numbers)
         self.courses: list[Course] = []
         inputs = tuple(line for one in followed for line in self._input(one))
         rates = self._results(machine.leaves(), [s.rate for s in machine.equations.states])
         outputs = self._results(machine.leaves(), machine.outputs)
-        if len(inputs) + len(rates) + len(outputs) > _LINES:
-            raise _Unsuitable
+        lines = len(inputs) + len(rates) + len(outputs)
+        if lines > _LINES:
+            raise Unsuitable(f"its state equations take {lines} lines, more than {_LINES}")
         tables = [RateTable(n, c, self._pool.rows(n)) for n, c in self._shared.tables.items()]
         sizes = len(machine.states), len(machine.signals), len(machine.outputs)
         self.source = RateSource(tuple(tables), inputs, rates, outputs, *sizes)
@@ -312,8 +323,12 @@ class _Written:
 
     def _loop(self, code: Code, number: int, block: Block) -> None:
         """Lines that solve the linear equations of a block."""
-        if not block.rests or len(block.unknowns) > DENSE:
-            raise _Unsuitable
+        names = ", ".join(f"`{n}`" for n in block.names[:4])
+        if not block.rests:
+            raise Unsuitable(f"the loop through {names} has to be iterated", block.origins)
+        if len(block.unknowns) > DENSE:
+            why = f"the loop through {names} has more than {DENSE} unknowns"
+            raise Unsuitable(why, block.origins)
         rests, entries = equations_of(self._pool, block)
         size, found = len(rests), f"found{number}"
         constants = [self._machine.values.constant(slope) for _, _, slope in entries]

@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.functions import FUNCTIONS
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.residuals import Residual
 from bondgraph.ir.unit import NONE, Dimension, over, raised, times
 from bondgraph.library.units import describe
-from bondgraph.pipeline import Compilation
 
 _SECOND: Dimension = (0, 0, 1, 0, 0, 0, 0)
 
 
-def residual_units(compilation: Compilation) -> dict[str, str]:
+def residual_units(graph: BondGraph, residuals: Iterable[Residual]) -> dict[str, str]:
     """The SI unit of each residual as a person would write it, "" where that is not known.
 
     >>> import bondgraph
-    >>> residual_units(bondgraph.compile("models/dc_motor.bg"))
+    >>> c = bondgraph.compile("models/dc_motor.bg")
+    >>> residual_units(c.graph, [r.residual for r in c.residuals])
     {'r1': 'V', 'r2': 'N.m'}
     """
-    graph = compilation.graph
     known: dict[Expr, Dimension | None] = {v.symbol: v.dimension for v in graph.values}
     known |= {i.symbol: i.dimension for i in graph.inputs}
     known |= {s.symbol: s.dimension for s in graph.sensors if s.same_as is None}
     found = {}
-    for residual in (r.residual for r in compilation.residuals):
+    for residual in residuals:
         root = graph.pool.logged([residual.expr])[0]
         for node in topological([root], stop=known.__contains__):
             if node not in known:
