@@ -83,7 +83,7 @@ update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model > /dev/null || exit 1; done
 	$(BIN)/python -m pytest --update
 
-fuzz: $(VENV)/dev.stamp ## a million hostile models, and 800 000 scenarios, logs, journals, messages ...; an hour (SHARE=0.1: less)
+fuzz: $(VENV)/dev.stamp ## a million hostile models, and 800 000 scenarios, logs, journals, messages ..., by atheris; an hour or more (SHARE=0.1: less)
 	$(BIN)/python -m tests.fuzz.guided --jobs 2 --share $(or $(SHARE),1)
 
 random: $(VENV)/dev.stamp ## 10 000 random bond graphs, others each time but for START=..., each verified or refused with a reason

@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from bondgraph.text.diagnostic import CompileError, Report, Trouble
+from bondgraph.text.limits import RATE
 from bondgraph.text.numerals import plural
 from bondgraph.text.renamed import by_new_name
 from bondgraph.text.source import Source, Span
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
     from typing import TypedDict, Unpack
 
+    from bondgraph.backends.decision import Tuned
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
     from bondgraph.ir.artifact import Artifact, BinaryArtifact
@@ -79,6 +81,7 @@ class Options(NamedTuple):
     `parameters` are numbers in SI, by name, that take the place of those in the model: a dict, or
     pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
+    `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
     """
 
     rate: float = 1000.0
@@ -92,6 +95,7 @@ class Options(NamedTuple):
     open_ports: bool = False
     parameters: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
     offsets: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
+    tuning: Tuning | None = None
 
 
 if TYPE_CHECKING:
@@ -110,6 +114,7 @@ if TYPE_CHECKING:
         open_ports: bool
         parameters: Mapping[str, float] | tuple[tuple[str, float], ...]
         offsets: Mapping[str, float] | tuple[tuple[str, float], ...]
+        tuning: Tuning | None
 
 
 class Compilation:
@@ -760,8 +765,30 @@ class Compilation:
         from bondgraph.backends.emit import emit
 
         languages = tuple(name for name in targets if name != "fmu")
-        found = emit(self.program, languages, self._bounds) if languages else ()
+        found = emit(self.program, languages, self._bounds, self._tuned) if languages else ()
         return (*found, *self._fmus) if "fmu" in targets else found
+
+    @property
+    def _tuned(self) -> Tuned:
+        """The limits of the tuning, for code."""
+        from bondgraph.backends.decision import UNTUNED, Tuned
+        from bondgraph.runtime.diagnosis.cusum import on_board
+
+        own = self.options.tuning
+        if own is None:
+            return UNTUNED
+        limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
+        words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
+        return Tuned(limits, words)
+
+    def tuned(self, tuning: Tuning) -> Compilation:
+        """The same for the filter of a tuning, with its limits in the code.
+
+        Raises ValueError for a tuning of another model, of other options or another rate.
+        """
+        if tuning.model != self.program.digest:
+            raise ValueError("it is of another model, or of other options")
+        return self.with_options(bandwidth=tuning.bandwidth, tuning=tuning)
 
     @cached_property
     def _fmus(self) -> tuple[BinaryArtifact, ...]:
@@ -866,13 +893,19 @@ def compile(
     return Compilation(source, model, Options(**options))
 
 
+class WrongOption(ValueError, Trouble):
+    """A number that no compilation can be asked for; a command that has it of a log says so."""
+
+
 def _checked(options: Options) -> Options:
     """The options, with tuples for lists; raises ValueError or TypeError for what none can be."""
-    for name in ("rate", "bandwidth", "resolution"):
+    for name in ("rate", "bandwidth"):
         value = getattr(options, name)
-        every = name == "resolution" and value == 0.0  # term is seen
-        if value is not None and not every and not 0.0 < value < float("inf"):
-            raise ValueError(f"{name} must be a positive number, not {value!r}")
+        if value is not None and not 1.0 / RATE <= value <= RATE:
+            message = f"{name} must be from {1.0 / RATE:g} to {RATE:g}, not {value:g}"
+            raise WrongOption(f"{message}; of a log, see that the unit of its times is right")
+    if not 0.0 <= options.resolution < float("inf"):  # 0: each term is seen
+        raise WrongOption(f"resolution must be a positive number, not {options.resolution!r}")
     form = options.form
     if isinstance(form, str) and form not in ("derivative", "observer"):
         raise ValueError(f"form is derivative, observer or names of residuals, not {form!r}")

@@ -6,8 +6,9 @@ import math
 import textwrap
 from collections.abc import Iterable
 
-from bondgraph.backends import listing
+from bondgraph.backends import decision, listing
 from bondgraph.backends.blocks import Block
+from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.facts import (
     ABI,
     SLOWEST,
@@ -46,7 +47,9 @@ _SCALED = ";\n * derivative k times time_unit to the power k"
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 
 
-def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dict[str, object]:
+def holes(
+    program: Program, target: Target, facts: Facts, golden: Golden, tuned: Tuned = UNTUNED
+) -> dict[str, object]:
     """Everything that the templates of C leave open."""
     spelling = Spelling(program, target)
     code = Code(program, spelling, facts.stem)
@@ -61,6 +64,7 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         **_Declarations(program, spelling, stem).all(),
         **code.configure(),
         **Vectors(program, spelling, golden).c(),
+        **decision.c_holes(program, tuned, target),
         "stem": stem,
         "file": facts.file,
         "noun": facts.noun,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.backends import c, python
+from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.facts import Facts, facts
 from bondgraph.backends.golden import golden
 from bondgraph.backends.readme import readme
@@ -20,15 +21,19 @@ _THRESHOLD, _ONCE = "threshold", ("example.c", "example.py")
 
 
 def emit(
-    program: Program, targets: tuple[str, ...], thresholds: Program | None = None
+    program: Program,
+    targets: tuple[str, ...],
+    thresholds: Program | None = None,
+    tuned: Tuned = UNTUNED,
 ) -> tuple[Artifact, ...]:
     """The files of `program` in the `targets` (`c`, `python`), and a README about them.
 
-    The files of `thresholds` go to a folder of their own. The same program gives the same bytes.
+    The files of `thresholds` go to a folder of their own. Limits that were `tuned` go with
+    `diagnose`. The same program gives the same bytes.
     Raises ValueError for a target that is not there.
     """
     about = facts(program)
-    found = _files(program, targets, about, thresholds is not None)
+    found = _files(program, targets, about, thresholds is not None, tuned)
     examples = {name: found[_EXAMPLES[name]] for name in dict.fromkeys(targets)}
     found["README.md"] = fill("README.md.j2", readme(program, about, examples, thresholds))
     if thresholds is not None:
@@ -38,14 +43,18 @@ def emit(
 
 
 def _files(
-    program: Program, targets: tuple[str, ...], about: Facts, bounded: bool
+    program: Program,
+    targets: tuple[str, ...],
+    about: Facts,
+    bounded: bool,
+    tuned: Tuned = UNTUNED,
 ) -> dict[str, str]:
     """The code of a program in all languages; `bounded` says that thresholds go beside it."""
     vectors = golden(program)
     found: dict[str, str] = {}
     for name in dict.fromkeys(targets):
         target = load(name)
-        holes = _HOLES[name](program, target, about, vectors) | {"bounded": bounded}
+        holes = _HOLES[name](program, target, about, vectors, tuned) | {"bounded": bounded}
         for template, path in target.files:
             if not (program.bounds and path in _ONCE):
                 found[path.format(file=about.file)] = fill(template, holes)

@@ -6,8 +6,9 @@ import math
 import textwrap
 from collections.abc import Iterable
 
-from bondgraph.backends import listing
+from bondgraph.backends import decision, listing
 from bondgraph.backends.blocks import Block
+from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.facts import (
     ABI,
     SLOWEST,
@@ -32,10 +33,13 @@ _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 _TYPES = {"real": "float", "bool": "bool", "count": "int"}
 
 
-def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dict[str, object]:
+def holes(
+    program: Program, target: Target, facts: Facts, golden: Golden, tuned: Tuned = UNTUNED
+) -> dict[str, object]:
     """Everything that the templates of Python leave open."""
     module = _Module(program, target, facts)
-    return module.all() | Vectors(program, module.spelling, golden).python()
+    found = module.all() | Vectors(program, module.spelling, golden).python()
+    return found | decision.python_holes(program, tuned, target)
 
 
 class _Module:
@@ -105,7 +109,8 @@ class _Module:
 
     def _imports(self) -> list[str]:
         found = ["from dataclasses import dataclass" + (", field" * bool(self.spelling.encoders))]
-        if self.has_dot or any(k.highest >= 1 for k in self.program.knowns):
+        wants = self.has_dot or any(k.highest >= 1 for k in self.program.knowns)
+        if wants or not self.program.bounds:  # a diagnosis takes limits
             found.insert(0, "from collections.abc import Sequence")
         return ["import math", *found]
 

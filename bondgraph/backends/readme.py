@@ -236,8 +236,11 @@ def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
         "residuals that see it 0 and invalid, and starts their filter anew at the next good "
         "sample; integrals begin again at their initial values. Other residuals go on. After a "
         "gap in the samples call `reset`.",
-        "- **Threshold**: a healthy residual is near zero, not zero. Take a log of the healthy "
-        "machine, and set the threshold above what you see.",
+        "- **`diagnose`** takes the residuals of `step` and says which are in alarm, since when, "
+        "and which classes of faults that leaves: none that a residual in alarm does not see, and "
+        "hardly one that a quiet residual would show, were it large enough. Blind residuals say "
+        "nothing. A healthy residual is near zero, not zero: `bondgraph compile --tuning` puts the "
+        "limits of a log of the healthy machine into the code; or make them of what you see.",
         "- **`exact`** takes exact derivatives of the signals, for tests and simulators; it "
         "filters nothing.",
     ]

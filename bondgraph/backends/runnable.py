@@ -29,7 +29,7 @@ def runnable(program: Program) -> Runnable:
     values = {f.name: 1.0 if f.default is None else f.default for f in program.params}
     none = Golden(values, (), ())  # nothing is tested here
     own, other = load("c"), load("python")
-    holes = c.holes(program, own, about, none)
+    holes = c.holes(program, own, about, none) | {"decides": False}  # the monitor decides
     files = {name: fill(f"c/residuals.{name}.j2", holes) for name in ("h", "c")}
     spelling = Spelling(program, other)
     return Runnable(
@@ -50,7 +50,8 @@ def runnable(program: Program) -> Runnable:
 
 
 def _python(program: Program, target: Target, about: Facts, none: Golden) -> str:
-    return fill("python/residuals.py.j2", python.holes(program, target, about, none))
+    holes = python.holes(program, target, about, none) | {"decides": False}
+    return fill("python/residuals.py.j2", holes)
 
 
 def _blocks(program: Program, spelling: Spelling) -> tuple[Together, ...]:

@@ -67,6 +67,7 @@ class Vectors:
                 f"    {stem.upper()}CONSTANT(0.001), /* {r.name} */" for r in self.program.residuals
             ],
             "readings": self._readings("    samples->{0} = {1};", _C_ZERO),
+            "from_log": self._from_log(f"    samples->{{0}} = {_C_READ};", stem),
             "to_set": [
                 f"    parameters.{name} = {stem.upper()}CONSTANT(1.0); "
                 f"/* {unit or '-'}: the model has no value, put yours */"
@@ -91,6 +92,18 @@ class Vectors:
         indent = len(pattern) - len(pattern.lstrip())
         short = [(d.strip(), text.partition(" (")[0]) for d, text in pairs]
         return listing.members(short, target, indent)
+
+    def _from_log(self, pattern: str, stem: str = "") -> list[str]:
+        """How the example reads the samples that `step` needs from the columns of a log."""
+        around = _FROM_LOG[self.spelling.target.name]
+        found = []
+        for member, known in zip(self.samples, self.program.knowns, strict=True):
+            if known.sampled:
+                before, behind = around[member.type]
+                found.append(pattern.format(member.name, before.format(stem), known.path, behind))
+            elif not stem:  # in Python a sample is whole
+                found.append(f"                {member.name}={_PYTHON_ZERO[member.type]},")
+        return found
 
     def _c_signals(
         self, name: str, members: Sequence[Member], vectors: Sequence[Vector]
@@ -127,6 +140,9 @@ class Vectors:
             "reals": listing.table_lines([f'"{name}",' for name in reals], target, 4),
             "thresholds": [f'    "{n}": 0.001,' for n in names],
             "readings": self._readings("        {0}={1},", _PYTHON_ZERO),
+            "residual_total": len(self.program.residuals),
+            "from_log": self._from_log(f"                {{0}}={_PYTHON_READ},"),
+            "reads_log": any(k.sampled for k in self.program.knowns),
             "to_set": [
                 f"    {name}=1.0,  # {unit or '-'}: the model has no value, put yours"
                 for name, unit, _ in self.unset()
@@ -152,6 +168,13 @@ class Vectors:
 
 _C_ZERO = {"real": "0", "bool": "false", "count": "0"}
 _PYTHON_ZERO = {"real": "0.0", "bool": "False", "count": "0"}
+_C_READ = '{1}column(names, line, "{2}"){3}'
+_PYTHON_READ = '{1}float(row["{2}"]){3}'
+#: What goes before and behind a value of a log, in C and in Python.
+_FROM_LOG = {
+    "C": {"real": ("({0}real)", ""), "bool": ("", " > 0.5"), "count": ("(int32_t)", "")},
+    "Python": {"real": ("", ""), "bool": ("", " > 0.5"), "count": ("int(", ")")},
+}
 
 
 def _row(

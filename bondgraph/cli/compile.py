@@ -9,7 +9,7 @@ from argparse import ArgumentParser, Namespace
 from bondgraph import Compilation, Options
 from bondgraph.cli import console
 from bondgraph.cli.log_options import note
-from bondgraph.cli.options import bits, further, opened, positive, realised
+from bondgraph.cli.options import bits, frequency, further, opened, read_tuning, realised
 from bondgraph.text.diagnostic import Trouble
 
 
@@ -24,14 +24,14 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--rate",
         metavar="HZ",
-        type=positive,
-        default=defaults.rate,
+        type=frequency,
+        default=None,
         help=f"samples a second that step is made for (default: {defaults.rate:g})",
     )
     parser.add_argument(
         "--bandwidth",
         metavar="RAD/S",
-        type=positive,
+        type=frequency,
         default=None,
         help="bandwidth of the residual filter (default: chosen from the rate)",
     )
@@ -41,6 +41,11 @@ def arguments(parser: ArgumentParser) -> None:
         type=bits,
         default=12,
         help="resolution of the samples: step leaves out what is smaller (default: 12)",
+    )
+    parser.add_argument(
+        "--tuning",
+        metavar="FILE.json",
+        help="limits for `diagnose`, from `bondgraph tune`, with its rate and bandwidth",
     )
     parser.add_argument(
         "--target",
@@ -64,7 +69,7 @@ def run(args: Namespace) -> int:
             listed = ", ".join(every)
             print(f"error: no target is called {unknown[0]}; there are {listed}", file=sys.stderr)
             return 2
-    compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
+    compilation = _opened(args)
     _compute(compilation)
     if compilation.options.offsets:
         names = ", ".join(dict(compilation.options.offsets))
@@ -80,6 +85,27 @@ def run(args: Namespace) -> int:
     console.show(compilation.report.diagnostics)
     print("\n".join(report(compilation, files)))
     return 0
+
+
+def _opened(args: Namespace) -> Compilation:
+    """The model with all options; a tuning says how it is sampled and filtered."""
+    tuning = read_tuning(args.tuning) if args.tuning else None
+    if tuning is not None:
+        for option, own, known in (
+            ("--rate", args.rate, tuning.rate),
+            ("--bandwidth", args.bandwidth, tuning.bandwidth),
+        ):
+            if own is not None and abs(own / known - 1.0) > 1e-9:
+                raise Trouble(f"{args.tuning}: it is for {option} {known:g}, not for {own:g}")
+        args.bandwidth = None
+    args.rate = args.rate or (Options().rate if tuning is None else tuning.rate)
+    compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
+    if tuning is None:
+        return compilation
+    try:
+        return compilation.tuned(tuning)
+    except ValueError as error:
+        raise Trouble(f"{args.tuning}: {error}; make it anew with `bondgraph tune`") from error
 
 
 #: What takes time, in order; each is a stage of the compilation.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bondgraph import Options
 from bondgraph.cli import monitor
 from bondgraph.cli.log_options import note, operating_of
-from bondgraph.cli.options import isolating, positive, realised, realising
+from bondgraph.cli.options import isolating, positive, read_tuning, realised, realising
 from bondgraph.ir.expr import symbols
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
@@ -154,7 +154,7 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
     from bondgraph.runtime.simulation.parameters import Values
 
     graph = compilation.graph
-    tuning = monitor.read_tuning(args.tuning) if args.tuning else None
+    tuning = read_tuning(args.tuning) if args.tuning else None
     engine, decided = watching(compilation, tuning, note)
     values = Values(graph, scenario.parameters)
     turns = {s.name: values.number(s.counts) for s in graph.sensors if s.counts is not None}

@@ -10,18 +10,22 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph.cli import console, fleet
 from bondgraph.cli.log_options import form_of, logged, note
-from bondgraph.cli.options import count, isolating, positive, realised, realising
-from bondgraph.text.diagnostic import Trouble
-from bondgraph.text.limits import TUNING_BYTES
+from bondgraph.cli.options import (
+    count,
+    frequency,
+    isolating,
+    positive,
+    read_tuning,
+    realised,
+    realising,
+)
 from bondgraph.text.numerals import plural
-from bondgraph.text.regular_file import check_regular
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable, Iterator
 
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
     from bondgraph.runtime.monitoring.mqtt_client import Address, Publisher
@@ -87,9 +91,9 @@ def sampled(add: Callable[..., object]) -> None:
         help="its speed (default: 115200)")  # fmt: skip
     add("--mqtt", metavar="HOST[:PORT]/TOPIC", help="samples from a topic of an MQTT broker")
     logged(add)
-    add("--rate", metavar="HZ", type=positive,
+    add("--rate", metavar="HZ", type=frequency,
         help=f"samples a second (default: of a file its own, else {Options().rate:g})")  # fmt: skip
-    add("--bandwidth", metavar="RAD/S", type=positive,
+    add("--bandwidth", metavar="RAD/S", type=frequency,
         help="bandwidth of the filter (default: by rate and length of the log)")  # fmt: skip
     add("--tuning", metavar="FILE.json",
         help="limits from `bondgraph tune` (default: learned from the first seconds)")  # fmt: skip
@@ -216,18 +220,6 @@ def source(args: Namespace, samples: Address | None) -> Source:
     if args.serial:
         return SerialPort(args.serial, args.baud, form)
     return Pipe(form) if name == "-" else file_source(name, form, args.follow)
-
-
-def read_tuning(path: str) -> Tuning:
-    """The limits that `bondgraph tune` wrote."""
-    from bondgraph.runtime.diagnosis.tuning import Tuning
-
-    try:
-        check_regular(path, TUNING_BYTES)
-        with open(path, encoding="utf-8") as file:
-            return Tuning.from_json(file.read())
-    except (ValueError, UnicodeDecodeError) as error:
-        raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
 
 
 def _journal(

@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, TypeVar
 
 from bondgraph import Compilation, Options, compile
 from bondgraph.cli import console
+from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.limits import RATE, TUNING_BYTES
+from bondgraph.text.regular_file import check_regular
 
 if TYPE_CHECKING:
     from typing import Unpack
 
     from bondgraph.pipeline import Form, OptionValues
+    from bondgraph.runtime.diagnosis.tuning import Tuning
 
 T = TypeVar("T", float, int)
 
@@ -32,6 +36,7 @@ def _number(kind: Callable[[str], T], name: str, good: Callable[[T], bool]) -> C
 
 
 positive = _number(float, "positive number", lambda value: 0 < value < math.inf)
+frequency = _number(float, f"number from {1 / RATE:g} to {RATE:g}", lambda v: 1 / RATE <= v <= RATE)
 pace = _number(float, "positive number", lambda value: value > 0)
 bits = _number(int, "number of bits from 1 to 52", lambda value: 1 <= value <= 52)
 count = _number(int, "number above 0", lambda value: value >= 1)
@@ -162,9 +167,9 @@ def further(parser: ArgumentParser) -> None:
 def sampling(parser: ArgumentParser) -> None:
     """The arguments that say how the machine is sampled."""
     rate = Options().rate
-    parser.add_argument("--rate", metavar="HZ", type=positive, default=rate,
+    parser.add_argument("--rate", metavar="HZ", type=frequency, default=rate,
                         help=f"samples a second (default: {rate:g})")  # fmt: skip
-    parser.add_argument("--bandwidth", metavar="RAD/S", type=positive, default=None,
+    parser.add_argument("--bandwidth", metavar="RAD/S", type=frequency, default=None,
                         help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
     parser.add_argument("--bits", metavar="N", type=bits, default=12,
                         help="resolution of the samples (default: 12)")  # fmt: skip
@@ -216,3 +221,15 @@ def opened(args: Namespace, targets: tuple[str, ...] = Options().targets) -> Com
         if fault not in compilation.graph.faults:
             raise console.Unknown(fault, "no fault of the model", compilation.graph.faults)
     return compilation
+
+
+def read_tuning(path: str) -> Tuning:
+    """The limits that `bondgraph tune` wrote."""
+    from bondgraph.runtime.diagnosis.tuning import Tuning
+
+    try:
+        check_regular(path, TUNING_BYTES)
+        with open(path, encoding="utf-8") as file:
+            return Tuning.from_json(file.read())
+    except (ValueError, UnicodeDecodeError) as error:
+        raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
 
 from bondgraph.text.diagnostic import Diagnostic, Label
 from bondgraph.text.source import Source, Span
@@ -239,6 +241,7 @@ def _by_source(labels: list[Label]) -> list[tuple[Source, list[Label]]]:
     return list(groups.values())
 
 
+@lru_cache(maxsize=2)  # a long line may have hundreds of labels
 def _fit(text: str) -> _Line:
     """The cells of a line: tabs as spaces, what cannot be printed as U+FFFD."""
     if text.isascii() and text.isprintable():
@@ -278,8 +281,7 @@ def _cut(line: _Line, start: int) -> tuple[str, int, int]:
         return "".join(cells), 0, size + 1
     first = 0
     if columns[min(start, size)] > _WIDTH * 3 // 4:
-        while columns[first] < columns[min(start, size)] - _WIDTH // 4:
-            first += 1
+        first = bisect_left(columns, columns[min(start, size)] - _WIDTH // 4)
     end = first
     while end < size and columns[end + 1] - columns[first] <= _WIDTH - 8:
         end += 1

@@ -375,3 +375,226 @@ void cable_bench_step(
 {
     run_r1(monitor, samples, residuals);
 }
+
+const char cable_bench_fault_name[CABLE_BENCH_FAULTS][7] = {
+    "line.R", "line.L", "line.C", "Uin", "Us",
+};
+
+const uint16_t cable_bench_fault_class[CABLE_BENCH_FAULTS] = {
+    0u, 0u, 0u, 1u, 1u,
+};
+
+const char cable_bench_residual_name[CABLE_BENCH_RESIDUALS][3] = {
+    "r1",
+};
+
+/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
+static const uint8_t signature[CABLE_BENCH_CLASSES][CABLE_BENCH_RESIDUALS] = {
+    {1u},
+    {3u},
+};
+
+#define NEVER REAL(1e30) /* a limit that nothing exceeds */
+#define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
+#define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
+#define SHARE REAL(0.3333333333333333) /* of the height, that a row adds at most */
+
+/* A sum, kept between zero and twice its height. */
+static real kept(real sum, real height)
+{
+    const real most = height + height;
+
+    return sum < REAL(0.0) ? REAL(0.0) : sum > most ? most : sum;
+}
+
+/* One row more of residual k; whether a sum is too high. off: from the mean, out: beyond bound. */
+static bool add_row(
+    cable_bench_diagnosis *d, const cable_bench_limit *limit, int k, real off, real out, real bound)
+{
+    const real top = limit->height + OVERSHOOT;
+    const real beyond = out > REAL(0.0) ? out : REAL(0.0);
+    const real loud = beyond * beyond * limit->loud - limit->drift;
+    const real most = SHARE * top;
+
+    d->above[k] = kept(d->above[k] + ((off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->below[k] = kept(d->below[k] + ((-off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->louder[k] = kept(d->louder[k] + (loud > most ? most : loud), top);
+    return d->above[k] > limit->height || d->below[k] > limit->height || d->louder[k] > top;
+}
+
+static bool sums_are_zero(const cable_bench_diagnosis *d, int k)
+{
+    const real sum = d->above[k] + d->below[k] + d->louder[k];
+
+    return !(sum > REAL(0.0));
+}
+
+static void forget_sums(cable_bench_diagnosis *d, int k)
+{
+    d->above[k] = REAL(0.0);
+    d->below[k] = REAL(0.0);
+    d->louder[k] = REAL(0.0);
+    d->streak[k] = 0u;
+}
+
+/* Residual k in one sample; whether it goes into alarm. */
+static bool watch(
+    cable_bench_diagnosis *d, const cable_bench_limit *limit, int k, real value, real bound, bool row)
+{
+    const real off = value - limit->mean;
+    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    bool high = false;
+
+    if (row) {
+        high = add_row(d, limit, k, off, out, bound);
+    }
+    if (d->state[k] == CABLE_BENCH_ALARM) {
+        d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
+            d->quiet = 0u;
+        }
+        return false;
+    }
+    d->state[k] = CABLE_BENCH_HEALTHY;
+    d->streak[k] = out > limit->level ? d->streak[k] + 1u : 0u;
+    if (d->streak[k] < d->least && !high) {
+        return false;
+    }
+    d->state[k] = CABLE_BENCH_ALARM;
+    d->since[k] = 0u;
+    return true;
+}
+
+/* What is left of a class of faults. */
+static cable_bench_candidate left_of(const cable_bench_diagnosis *d, const uint8_t *own)
+{
+    cable_bench_candidate found = CABLE_BENCH_LIKELY;
+    int k;
+
+    for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+        if (d->state[k] == CABLE_BENCH_ALARM && own[k] == 0u) {
+            return CABLE_BENCH_RULED_OUT;
+        }
+        if (d->state[k] == CABLE_BENCH_HEALTHY && own[k] == 3u) {
+            found = CABLE_BENCH_SMALL;
+        }
+    }
+    return found;
+}
+
+/* Which classes of faults the residuals leave, and the one if it is one. */
+static void judge(cable_bench_diagnosis *d)
+{
+    int likely = 0;
+    int c;
+
+    d->fault_class = CABLE_BENCH_UNKNOWN;
+    for (c = 0; c < CABLE_BENCH_CLASSES; ++c) {
+        const cable_bench_candidate left = left_of(d, signature[c]);
+
+        d->candidate[c] = (uint8_t)left;
+        if (left == CABLE_BENCH_LIKELY) {
+            d->fault_class = (int16_t)c;
+            ++likely;
+        }
+    }
+    if (likely != 1 || d->settled < 2u * d->row) {
+        d->fault_class = CABLE_BENCH_UNKNOWN;
+    }
+}
+
+cable_bench_limit cable_bench_limit_of(cable_bench_real level)
+{
+    cable_bench_limit limit;
+
+    limit.mean = REAL(0.0);
+    limit.level = level;
+    limit.unit = REAL(0.0);
+    limit.loud = REAL(0.0);
+    limit.drift = REAL(0.5);
+    limit.height = NEVER;
+    limit.bound = REAL(0.0);
+    return limit;
+}
+
+void cable_bench_clear(cable_bench_diagnosis *diagnosis)
+{
+    int k;
+
+    for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+        if (diagnosis->state[k] == CABLE_BENCH_ALARM) {
+            diagnosis->state[k] = CABLE_BENCH_HEALTHY;
+        }
+        diagnosis->since[k] = 0u;
+        forget_sums(diagnosis, k);
+    }
+    for (k = 0; k < CABLE_BENCH_CLASSES; ++k) {
+        diagnosis->candidate[k] = CABLE_BENCH_RULED_OUT;
+    }
+    diagnosis->fault_class = CABLE_BENCH_UNKNOWN;
+    diagnosis->quiet = 0u;
+    diagnosis->settled = 0u;
+}
+
+void cable_bench_diagnosis_reset(cable_bench_diagnosis *diagnosis)
+{
+    int k;
+
+    diagnosis->row = CABLE_BENCH_ROW;
+    diagnosis->least = 15u;
+    diagnosis->hold = 10u * CABLE_BENCH_ROW;
+    diagnosis->latch = false;
+    diagnosis->tick = 0u;
+    for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+        diagnosis->state[k] = CABLE_BENCH_BLIND;
+    }
+    cable_bench_clear(diagnosis);
+}
+
+bool cable_bench_diagnose(
+    cable_bench_diagnosis *diagnosis,
+    const cable_bench_limit *limits,
+    const cable_bench_real *bounds,
+    const cable_bench_residuals *residuals)
+{
+    cable_bench_diagnosis *d = diagnosis;
+    bool alarm = false;
+    bool fresh = false;
+    bool row;
+    int k;
+
+    d->tick += 1u;
+    row = d->tick >= d->row;
+    if (row) {
+        d->tick = 0u;
+    }
+    d->quiet += d->quiet < UINT32_MAX ? 1u : 0u;
+    d->settled += d->settled < UINT32_MAX ? 1u : 0u;
+    for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+        if (residuals->valid[k]) {
+            const real bound = bounds ? bounds[k] : limits[k].bound;
+
+            fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
+        } else {
+            forget_sums(d, k);
+            if (d->state[k] == CABLE_BENCH_ALARM) {
+                d->quiet = 0u; /* nobody knows that it is over */
+            } else {
+                d->state[k] = CABLE_BENCH_BLIND;
+            }
+        }
+        alarm = alarm || d->state[k] == CABLE_BENCH_ALARM;
+    }
+    if (fresh) {
+        d->quiet = 0u;
+        d->settled = 0u;
+    }
+    if (alarm && !d->latch && d->quiet >= d->hold) {
+        cable_bench_clear(d);
+        return false;
+    }
+    if (fresh || (alarm && row)) {
+        judge(d);
+    }
+    return alarm;
+}

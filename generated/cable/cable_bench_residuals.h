@@ -26,7 +26,7 @@ typedef double cable_bench_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define CABLE_BENCH_ABI (1u * 256u + (uint32_t)sizeof(cable_bench_real))
+#define CABLE_BENCH_ABI (2u * 256u + (uint32_t)sizeof(cable_bench_real))
 /* Identifies the model and the options that this code was made from. */
 #define CABLE_BENCH_DIGEST "592fcebfb38e27a5"
 
@@ -168,6 +168,97 @@ void cable_bench_exact(
     const cable_bench_monitor *monitor,
     const cable_bench_derivatives *derivatives,
     cable_bench_real residuals[CABLE_BENCH_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    CABLE_BENCH_FAULTS = 5,
+    CABLE_BENCH_CLASSES = 2,
+    /* samples between two rows: three time constants of the filter */
+    CABLE_BENCH_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char cable_bench_fault_name[CABLE_BENCH_FAULTS][7];
+extern const uint16_t cable_bench_fault_class[CABLE_BENCH_FAULTS];
+extern const char cable_bench_residual_name[CABLE_BENCH_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct cable_bench_limit {
+    cable_bench_real mean;    /* where it stands */
+    cable_bench_real level;   /* how far from there a sample may be, beside its bound */
+    cable_bench_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    cable_bench_real loud;    /* factor of squares, in the sum of how loud it is */
+    cable_bench_real drift;   /* what that sum loses with each row */
+    cable_bench_real height;  /* of a sum, that is too much */
+    cable_bench_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} cable_bench_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum cable_bench_state {
+    CABLE_BENCH_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    CABLE_BENCH_HEALTHY,
+    CABLE_BENCH_ALARM
+} cable_bench_state;
+
+typedef enum cable_bench_candidate {
+    CABLE_BENCH_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    CABLE_BENCH_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    CABLE_BENCH_LIKELY
+} cable_bench_candidate;
+
+/* No class, or more than one. */
+#define CABLE_BENCH_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct cable_bench_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: CABLE_BENCH_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until cable_bench_clear */
+
+    /* for you to read */
+    uint8_t state[CABLE_BENCH_RESIDUALS];   /* a cable_bench_state */
+    uint32_t since[CABLE_BENCH_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[CABLE_BENCH_CLASSES]; /* a cable_bench_candidate */
+    int16_t fault_class; /* the one that is left, or CABLE_BENCH_UNKNOWN */
+
+    /* its own */
+    cable_bench_real above[CABLE_BENCH_RESIDUALS];
+    cable_bench_real below[CABLE_BENCH_RESIDUALS];
+    cable_bench_real louder[CABLE_BENCH_RESIDUALS];
+    uint32_t streak[CABLE_BENCH_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} cable_bench_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+cable_bench_limit cable_bench_limit_of(cable_bench_real level);
+
+/* Forgets everything. */
+void cable_bench_diagnosis_reset(cable_bench_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void cable_bench_clear(cable_bench_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool cable_bench_diagnose(
+    cable_bench_diagnosis *diagnosis,
+    const cable_bench_limit *limits,
+    const cable_bench_real *bounds,
+    const cable_bench_residuals *residuals);
 
 #ifdef __cplusplus
 }

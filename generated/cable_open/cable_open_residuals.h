@@ -26,7 +26,7 @@ typedef double cable_open_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define CABLE_OPEN_ABI (1u * 256u + (uint32_t)sizeof(cable_open_real))
+#define CABLE_OPEN_ABI (2u * 256u + (uint32_t)sizeof(cable_open_real))
 /* Identifies the model and the options that this code was made from. */
 #define CABLE_OPEN_DIGEST "425e0629f4321955"
 
@@ -151,6 +151,97 @@ void cable_open_exact(
     const cable_open_monitor *monitor,
     const cable_open_derivatives *derivatives,
     cable_open_real residuals[CABLE_OPEN_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    CABLE_OPEN_FAULTS = 5,
+    CABLE_OPEN_CLASSES = 2,
+    /* samples between two rows: three time constants of the filter */
+    CABLE_OPEN_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char cable_open_fault_name[CABLE_OPEN_FAULTS][7];
+extern const uint16_t cable_open_fault_class[CABLE_OPEN_FAULTS];
+extern const char cable_open_residual_name[CABLE_OPEN_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct cable_open_limit {
+    cable_open_real mean;    /* where it stands */
+    cable_open_real level;   /* how far from there a sample may be, beside its bound */
+    cable_open_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    cable_open_real loud;    /* factor of squares, in the sum of how loud it is */
+    cable_open_real drift;   /* what that sum loses with each row */
+    cable_open_real height;  /* of a sum, that is too much */
+    cable_open_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} cable_open_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum cable_open_state {
+    CABLE_OPEN_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    CABLE_OPEN_HEALTHY,
+    CABLE_OPEN_ALARM
+} cable_open_state;
+
+typedef enum cable_open_candidate {
+    CABLE_OPEN_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    CABLE_OPEN_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    CABLE_OPEN_LIKELY
+} cable_open_candidate;
+
+/* No class, or more than one. */
+#define CABLE_OPEN_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct cable_open_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: CABLE_OPEN_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until cable_open_clear */
+
+    /* for you to read */
+    uint8_t state[CABLE_OPEN_RESIDUALS];   /* a cable_open_state */
+    uint32_t since[CABLE_OPEN_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[CABLE_OPEN_CLASSES]; /* a cable_open_candidate */
+    int16_t fault_class; /* the one that is left, or CABLE_OPEN_UNKNOWN */
+
+    /* its own */
+    cable_open_real above[CABLE_OPEN_RESIDUALS];
+    cable_open_real below[CABLE_OPEN_RESIDUALS];
+    cable_open_real louder[CABLE_OPEN_RESIDUALS];
+    uint32_t streak[CABLE_OPEN_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} cable_open_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+cable_open_limit cable_open_limit_of(cable_open_real level);
+
+/* Forgets everything. */
+void cable_open_diagnosis_reset(cable_open_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void cable_open_clear(cable_open_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool cable_open_diagnose(
+    cable_open_diagnosis *diagnosis,
+    const cable_open_limit *limits,
+    const cable_open_real *bounds,
+    const cable_open_residuals *residuals);
 
 #ifdef __cplusplus
 }

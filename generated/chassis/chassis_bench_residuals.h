@@ -27,7 +27,7 @@ typedef double chassis_bench_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define CHASSIS_BENCH_ABI (1u * 256u + (uint32_t)sizeof(chassis_bench_real))
+#define CHASSIS_BENCH_ABI (2u * 256u + (uint32_t)sizeof(chassis_bench_real))
 /* Identifies the model and the options that this code was made from. */
 #define CHASSIS_BENCH_DIGEST "d4f1a023dd4e2e81"
 
@@ -170,6 +170,97 @@ void chassis_bench_exact(
     const chassis_bench_monitor *monitor,
     const chassis_bench_derivatives *derivatives,
     chassis_bench_real residuals[CHASSIS_BENCH_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    CHASSIS_BENCH_FAULTS = 9,
+    CHASSIS_BENCH_CLASSES = 3,
+    /* samples between two rows: three time constants of the filter */
+    CHASSIS_BENCH_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char chassis_bench_fault_name[CHASSIS_BENCH_FAULTS][11];
+extern const uint16_t chassis_bench_fault_class[CHASSIS_BENCH_FAULTS];
+extern const char chassis_bench_residual_name[CHASSIS_BENCH_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct chassis_bench_limit {
+    chassis_bench_real mean;    /* where it stands */
+    chassis_bench_real level;   /* how far from there a sample may be, beside its bound */
+    chassis_bench_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    chassis_bench_real loud;    /* factor of squares, in the sum of how loud it is */
+    chassis_bench_real drift;   /* what that sum loses with each row */
+    chassis_bench_real height;  /* of a sum, that is too much */
+    chassis_bench_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} chassis_bench_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum chassis_bench_state {
+    CHASSIS_BENCH_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    CHASSIS_BENCH_HEALTHY,
+    CHASSIS_BENCH_ALARM
+} chassis_bench_state;
+
+typedef enum chassis_bench_candidate {
+    CHASSIS_BENCH_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    CHASSIS_BENCH_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    CHASSIS_BENCH_LIKELY
+} chassis_bench_candidate;
+
+/* No class, or more than one. */
+#define CHASSIS_BENCH_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct chassis_bench_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: CHASSIS_BENCH_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until chassis_bench_clear */
+
+    /* for you to read */
+    uint8_t state[CHASSIS_BENCH_RESIDUALS];   /* a chassis_bench_state */
+    uint32_t since[CHASSIS_BENCH_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[CHASSIS_BENCH_CLASSES]; /* a chassis_bench_candidate */
+    int16_t fault_class; /* the one that is left, or CHASSIS_BENCH_UNKNOWN */
+
+    /* its own */
+    chassis_bench_real above[CHASSIS_BENCH_RESIDUALS];
+    chassis_bench_real below[CHASSIS_BENCH_RESIDUALS];
+    chassis_bench_real louder[CHASSIS_BENCH_RESIDUALS];
+    uint32_t streak[CHASSIS_BENCH_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} chassis_bench_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+chassis_bench_limit chassis_bench_limit_of(chassis_bench_real level);
+
+/* Forgets everything. */
+void chassis_bench_diagnosis_reset(chassis_bench_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void chassis_bench_clear(chassis_bench_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool chassis_bench_diagnose(
+    chassis_bench_diagnosis *diagnosis,
+    const chassis_bench_limit *limits,
+    const chassis_bench_real *bounds,
+    const chassis_bench_residuals *residuals);
 
 #ifdef __cplusplus
 }

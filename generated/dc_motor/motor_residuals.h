@@ -26,7 +26,7 @@ typedef double motor_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define MOTOR_ABI (1u * 256u + (uint32_t)sizeof(motor_real))
+#define MOTOR_ABI (2u * 256u + (uint32_t)sizeof(motor_real))
 /* Identifies the model and the options that this code was made from. */
 #define MOTOR_DIGEST "e8e2c5fe7c5b7d16"
 
@@ -169,6 +169,97 @@ void motor_exact(
     const motor_monitor *monitor,
     const motor_derivatives *derivatives,
     motor_real residuals[MOTOR_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    MOTOR_FAULTS = 9,
+    MOTOR_CLASSES = 3,
+    /* samples between two rows: three time constants of the filter */
+    MOTOR_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char motor_fault_name[MOTOR_FAULTS][8];
+extern const uint16_t motor_fault_class[MOTOR_FAULTS];
+extern const char motor_residual_name[MOTOR_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct motor_limit {
+    motor_real mean;    /* where it stands */
+    motor_real level;   /* how far from there a sample may be, beside its bound */
+    motor_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    motor_real loud;    /* factor of squares, in the sum of how loud it is */
+    motor_real drift;   /* what that sum loses with each row */
+    motor_real height;  /* of a sum, that is too much */
+    motor_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} motor_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum motor_state {
+    MOTOR_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    MOTOR_HEALTHY,
+    MOTOR_ALARM
+} motor_state;
+
+typedef enum motor_candidate {
+    MOTOR_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    MOTOR_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    MOTOR_LIKELY
+} motor_candidate;
+
+/* No class, or more than one. */
+#define MOTOR_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct motor_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: MOTOR_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until motor_clear */
+
+    /* for you to read */
+    uint8_t state[MOTOR_RESIDUALS];   /* a motor_state */
+    uint32_t since[MOTOR_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[MOTOR_CLASSES]; /* a motor_candidate */
+    int16_t fault_class; /* the one that is left, or MOTOR_UNKNOWN */
+
+    /* its own */
+    motor_real above[MOTOR_RESIDUALS];
+    motor_real below[MOTOR_RESIDUALS];
+    motor_real louder[MOTOR_RESIDUALS];
+    uint32_t streak[MOTOR_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} motor_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+motor_limit motor_limit_of(motor_real level);
+
+/* Forgets everything. */
+void motor_diagnosis_reset(motor_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void motor_clear(motor_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool motor_diagnose(
+    motor_diagnosis *diagnosis,
+    const motor_limit *limits,
+    const motor_real *bounds,
+    const motor_residuals *residuals);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 #: Version of the classes and methods below.
-ABI = 1
+ABI = 2
 #: Identifies the model and the options that this code was made from.
 DIGEST = "e8e2c5fe7c5b7d16"
 
@@ -389,3 +389,173 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
+
+
+#: Names of the faults, by class: no residual tells those of one class apart.
+CLASSES: tuple[tuple[str, ...], ...] = (
+    ("L", "R", "U"),
+    ("k", "current", "speed"),
+    ("J", "f", "load"),
+)
+#: Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure.
+_SIGNATURES: tuple[tuple[int, ...], ...] = (
+    (3, 0),
+    (3, 3),
+    (0, 3),
+)
+#: Names of the residuals.
+RESIDUALS = (
+    "r1", "r2",
+)
+#: Samples between two rows: three time constants of the filter.
+ROW = 150
+BLIND, HEALTHY, ALARM = range(3)
+RULED_OUT, SMALL, LIKELY = range(3)
+
+
+@dataclass(slots=True)
+class Limit:
+    """What is known of a residual while all is well: bondgraph tune finds it.
+
+    mean: where it stands; level: how far from there a sample may be, beside its bound; unit: one
+    over the deviation of noise that adds up, 0: no sums; loud: factor of squares in the sum of how
+    loud it is, drift: what that sum loses with each row; height: of a sum, that is too much;
+    bound: how far off it may be by tolerances, where nobody tells it.
+    """
+
+    mean: float
+    level: float
+    unit: float = 0.0
+    loud: float = 0.0
+    drift: float = 0.5
+    height: float = 1e30
+    bound: float = 0.0
+
+
+class Diagnosis:
+    """What is wrong: which residuals are out, and which faults that leaves.
+
+    limits: one for each residual; latch: whether an alarm stays until `clear`. By residual, `state`
+    is BLIND (it has no value), HEALTHY or ALARM, and `since` the samples since it went into alarm.
+    By class of faults, `candidate` is RULED_OUT (a residual is in alarm that does not see it),
+    SMALL (a residual is quiet that would show it, were it large enough) or LIKELY. `fault_class` is
+    the class that is left, None if it is none or more than one. `row`, `least` and `hold` may be
+    set: samples between two rows, that are out before a residual is in alarm, and that all have
+    to be quiet for before the alarm is over.
+    """
+
+    def __init__(
+        self, limits: Sequence[Limit], *, latch: bool = False
+    ) -> None:
+        self.limits, self.latch = tuple(limits), latch
+        self.row, self.least, self.hold = ROW, 15, 10 * ROW
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self.state = [BLIND] * len(RESIDUALS)
+        self._tick = 0
+        self.clear()
+
+    def clear(self) -> None:
+        """End an alarm."""
+        self.state = [HEALTHY if s == ALARM else s for s in self.state]
+        self.since = [0] * len(RESIDUALS)
+        self.candidate = [RULED_OUT] * len(CLASSES)
+        self.fault_class: int | None = None
+        self._sums = [[0.0, 0.0, 0.0] for _ in RESIDUALS]  # above, below, louder
+        self._streak = [0] * len(RESIDUALS)
+        self._quiet = self._settled = 0
+
+    def update(self, residuals: Residuals, bounds: Sequence[float] | None = None) -> bool:
+        """Take the residuals of one sample; whether any is in alarm.
+
+        bounds: how far each residual may be off now because parameters are within their tolerances
+        (adaptive thresholds); without them those of the limits, which do not move.
+        """
+        self._tick += 1
+        row = self._tick >= self.row
+        if row:
+            self._tick = 0
+        self._quiet += 1
+        self._settled += 1
+        fresh = False
+        for k, name in enumerate(RESIDUALS):
+            if name in residuals.valid:
+                bound = self.limits[k].bound if bounds is None else bounds[k]
+                fresh = self._watch(k, getattr(residuals, name), bound, row) or fresh
+            else:
+                self._forget(k)
+                if self.state[k] == ALARM:
+                    self._quiet = 0  # nobody knows that it is over
+                else:
+                    self.state[k] = BLIND
+        alarm = ALARM in self.state
+        if fresh:
+            self._quiet = self._settled = 0
+        if alarm and not self.latch and self._quiet >= self.hold:
+            self.clear()
+            return False
+        if fresh or (alarm and row):
+            self._judge()
+        return alarm
+
+    def _watch(self, k: int, value: float, bound: float, row: bool) -> bool:
+        """Residual k in one sample; whether it goes into alarm."""
+        limit = self.limits[k]
+        off = value - limit.mean
+        out = (-off if off < 0.0 else off) - bound
+        high = row and self._add_row(k, off, out, bound)
+        if self.state[k] == ALARM:
+            self.since[k] += 1
+            above, below, louder = self._sums[k]
+            if not out < 0.5 * limit.level or above + below + louder > 0.0:
+                self._quiet = 0
+            return False
+        self.state[k] = HEALTHY
+        self._streak[k] = self._streak[k] + 1 if out > limit.level else 0
+        if self._streak[k] < self.least and not high:
+            return False
+        self.state[k] = ALARM
+        self.since[k] = 0
+        return True
+
+    def _add_row(self, k: int, off: float, out: float, bound: float) -> bool:
+        """One row more of residual k; whether a sum is too high."""
+        limit = self.limits[k]
+        top = limit.height + 1.166
+        beyond = out if out > 0.0 else 0.0
+        loud = beyond * beyond * limit.loud - limit.drift
+        most = 0.3333333333333333 * top
+        above, below, louder = self._sums[k]
+        above = _kept(above + ((off - bound) * limit.unit - 0.5), limit.height)
+        below = _kept(below + ((-off - bound) * limit.unit - 0.5), limit.height)
+        louder = _kept(louder + (most if loud > most else loud), top)
+        self._sums[k] = [above, below, louder]
+        return above > limit.height or below > limit.height or louder > top
+
+    def _forget(self, k: int) -> None:
+        self._sums[k] = [0.0, 0.0, 0.0]
+        self._streak[k] = 0
+
+    def _judge(self) -> None:
+        """Which classes of faults the residuals leave, and the one if it is one."""
+        self.candidate = [self._left(own) for own in _SIGNATURES]
+        one = self.candidate.count(LIKELY) == 1 and self._settled >= 2 * self.row
+        self.fault_class = self.candidate.index(LIKELY) if one else None
+
+    def _left(self, own: Sequence[int]) -> int:
+        """What is left of a class of faults."""
+        found = LIKELY
+        for state, entry in zip(self.state, own, strict=True):
+            if state == ALARM and entry == 0:
+                return RULED_OUT
+            if state == HEALTHY and entry == 3:
+                found = SMALL
+        return found
+
+
+def _kept(total: float, height: float) -> float:
+    """A sum, kept between zero and twice its height."""
+    most = height + height
+    return 0.0 if total < 0.0 else most if total > most else total

@@ -26,7 +26,7 @@ typedef double drive_bench_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define DRIVE_BENCH_ABI (1u * 256u + (uint32_t)sizeof(drive_bench_real))
+#define DRIVE_BENCH_ABI (2u * 256u + (uint32_t)sizeof(drive_bench_real))
 /* Identifies the model and the options that this code was made from. */
 #define DRIVE_BENCH_DIGEST "85461c183f8b86d9"
 
@@ -216,6 +216,97 @@ void drive_bench_exact(
     const drive_bench_monitor *monitor,
     const drive_bench_derivatives *derivatives,
     drive_bench_real residuals[DRIVE_BENCH_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    DRIVE_BENCH_FAULTS = 16,
+    DRIVE_BENCH_CLASSES = 4,
+    /* samples between two rows: three time constants of the filter */
+    DRIVE_BENCH_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char drive_bench_fault_name[DRIVE_BENCH_FAULTS][8];
+extern const uint16_t drive_bench_fault_class[DRIVE_BENCH_FAULTS];
+extern const char drive_bench_residual_name[DRIVE_BENCH_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct drive_bench_limit {
+    drive_bench_real mean;    /* where it stands */
+    drive_bench_real level;   /* how far from there a sample may be, beside its bound */
+    drive_bench_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    drive_bench_real loud;    /* factor of squares, in the sum of how loud it is */
+    drive_bench_real drift;   /* what that sum loses with each row */
+    drive_bench_real height;  /* of a sum, that is too much */
+    drive_bench_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} drive_bench_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum drive_bench_state {
+    DRIVE_BENCH_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    DRIVE_BENCH_HEALTHY,
+    DRIVE_BENCH_ALARM
+} drive_bench_state;
+
+typedef enum drive_bench_candidate {
+    DRIVE_BENCH_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    DRIVE_BENCH_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    DRIVE_BENCH_LIKELY
+} drive_bench_candidate;
+
+/* No class, or more than one. */
+#define DRIVE_BENCH_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct drive_bench_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: DRIVE_BENCH_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until drive_bench_clear */
+
+    /* for you to read */
+    uint8_t state[DRIVE_BENCH_RESIDUALS];   /* a drive_bench_state */
+    uint32_t since[DRIVE_BENCH_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[DRIVE_BENCH_CLASSES]; /* a drive_bench_candidate */
+    int16_t fault_class; /* the one that is left, or DRIVE_BENCH_UNKNOWN */
+
+    /* its own */
+    drive_bench_real above[DRIVE_BENCH_RESIDUALS];
+    drive_bench_real below[DRIVE_BENCH_RESIDUALS];
+    drive_bench_real louder[DRIVE_BENCH_RESIDUALS];
+    uint32_t streak[DRIVE_BENCH_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} drive_bench_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+drive_bench_limit drive_bench_limit_of(drive_bench_real level);
+
+/* Forgets everything. */
+void drive_bench_diagnosis_reset(drive_bench_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void drive_bench_clear(drive_bench_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool drive_bench_diagnose(
+    drive_bench_diagnosis *diagnosis,
+    const drive_bench_limit *limits,
+    const drive_bench_real *bounds,
+    const drive_bench_residuals *residuals);
 
 #ifdef __cplusplus
 }

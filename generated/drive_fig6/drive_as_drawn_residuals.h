@@ -27,7 +27,7 @@ typedef double drive_as_drawn_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define DRIVE_AS_DRAWN_ABI (1u * 256u + (uint32_t)sizeof(drive_as_drawn_real))
+#define DRIVE_AS_DRAWN_ABI (2u * 256u + (uint32_t)sizeof(drive_as_drawn_real))
 /* Identifies the model and the options that this code was made from. */
 #define DRIVE_AS_DRAWN_DIGEST "0527f11c1cc79a39"
 
@@ -227,6 +227,97 @@ void drive_as_drawn_exact(
     const drive_as_drawn_monitor *monitor,
     const drive_as_drawn_derivatives *derivatives,
     drive_as_drawn_real residuals[DRIVE_AS_DRAWN_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    DRIVE_AS_DRAWN_FAULTS = 16,
+    DRIVE_AS_DRAWN_CLASSES = 3,
+    /* samples between two rows: three time constants of the filter */
+    DRIVE_AS_DRAWN_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char drive_as_drawn_fault_name[DRIVE_AS_DRAWN_FAULTS][6];
+extern const uint16_t drive_as_drawn_fault_class[DRIVE_AS_DRAWN_FAULTS];
+extern const char drive_as_drawn_residual_name[DRIVE_AS_DRAWN_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct drive_as_drawn_limit {
+    drive_as_drawn_real mean;    /* where it stands */
+    drive_as_drawn_real level;   /* how far from there a sample may be, beside its bound */
+    drive_as_drawn_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    drive_as_drawn_real loud;    /* factor of squares, in the sum of how loud it is */
+    drive_as_drawn_real drift;   /* what that sum loses with each row */
+    drive_as_drawn_real height;  /* of a sum, that is too much */
+    drive_as_drawn_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} drive_as_drawn_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum drive_as_drawn_state {
+    DRIVE_AS_DRAWN_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    DRIVE_AS_DRAWN_HEALTHY,
+    DRIVE_AS_DRAWN_ALARM
+} drive_as_drawn_state;
+
+typedef enum drive_as_drawn_candidate {
+    DRIVE_AS_DRAWN_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    DRIVE_AS_DRAWN_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    DRIVE_AS_DRAWN_LIKELY
+} drive_as_drawn_candidate;
+
+/* No class, or more than one. */
+#define DRIVE_AS_DRAWN_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct drive_as_drawn_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: DRIVE_AS_DRAWN_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until drive_as_drawn_clear */
+
+    /* for you to read */
+    uint8_t state[DRIVE_AS_DRAWN_RESIDUALS];   /* a drive_as_drawn_state */
+    uint32_t since[DRIVE_AS_DRAWN_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[DRIVE_AS_DRAWN_CLASSES]; /* a drive_as_drawn_candidate */
+    int16_t fault_class; /* the one that is left, or DRIVE_AS_DRAWN_UNKNOWN */
+
+    /* its own */
+    drive_as_drawn_real above[DRIVE_AS_DRAWN_RESIDUALS];
+    drive_as_drawn_real below[DRIVE_AS_DRAWN_RESIDUALS];
+    drive_as_drawn_real louder[DRIVE_AS_DRAWN_RESIDUALS];
+    uint32_t streak[DRIVE_AS_DRAWN_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} drive_as_drawn_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+drive_as_drawn_limit drive_as_drawn_limit_of(drive_as_drawn_real level);
+
+/* Forgets everything. */
+void drive_as_drawn_diagnosis_reset(drive_as_drawn_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void drive_as_drawn_clear(drive_as_drawn_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool drive_as_drawn_diagnose(
+    drive_as_drawn_diagnosis *diagnosis,
+    const drive_as_drawn_limit *limits,
+    const drive_as_drawn_real *bounds,
+    const drive_as_drawn_residuals *residuals);
 
 #ifdef __cplusplus
 }

@@ -27,7 +27,7 @@ typedef double hydraulic_actuator_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define HYDRAULIC_ACTUATOR_ABI (1u * 256u + (uint32_t)sizeof(hydraulic_actuator_real))
+#define HYDRAULIC_ACTUATOR_ABI (2u * 256u + (uint32_t)sizeof(hydraulic_actuator_real))
 /* Identifies the model and the options that this code was made from. */
 #define HYDRAULIC_ACTUATOR_DIGEST "ca5d80adb027c533"
 
@@ -175,6 +175,97 @@ void hydraulic_actuator_exact(
     const hydraulic_actuator_monitor *monitor,
     const hydraulic_actuator_derivatives *derivatives,
     hydraulic_actuator_real residuals[HYDRAULIC_ACTUATOR_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    HYDRAULIC_ACTUATOR_FAULTS = 12,
+    HYDRAULIC_ACTUATOR_CLASSES = 3,
+    /* samples between two rows: three time constants of the filter */
+    HYDRAULIC_ACTUATOR_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char hydraulic_actuator_fault_name[HYDRAULIC_ACTUATOR_FAULTS][6];
+extern const uint16_t hydraulic_actuator_fault_class[HYDRAULIC_ACTUATOR_FAULTS];
+extern const char hydraulic_actuator_residual_name[HYDRAULIC_ACTUATOR_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct hydraulic_actuator_limit {
+    hydraulic_actuator_real mean;    /* where it stands */
+    hydraulic_actuator_real level;   /* how far from there a sample may be, beside its bound */
+    hydraulic_actuator_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    hydraulic_actuator_real loud;    /* factor of squares, in the sum of how loud it is */
+    hydraulic_actuator_real drift;   /* what that sum loses with each row */
+    hydraulic_actuator_real height;  /* of a sum, that is too much */
+    hydraulic_actuator_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} hydraulic_actuator_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum hydraulic_actuator_state {
+    HYDRAULIC_ACTUATOR_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    HYDRAULIC_ACTUATOR_HEALTHY,
+    HYDRAULIC_ACTUATOR_ALARM
+} hydraulic_actuator_state;
+
+typedef enum hydraulic_actuator_candidate {
+    HYDRAULIC_ACTUATOR_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    HYDRAULIC_ACTUATOR_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    HYDRAULIC_ACTUATOR_LIKELY
+} hydraulic_actuator_candidate;
+
+/* No class, or more than one. */
+#define HYDRAULIC_ACTUATOR_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct hydraulic_actuator_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: HYDRAULIC_ACTUATOR_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until hydraulic_actuator_clear */
+
+    /* for you to read */
+    uint8_t state[HYDRAULIC_ACTUATOR_RESIDUALS];   /* a hydraulic_actuator_state */
+    uint32_t since[HYDRAULIC_ACTUATOR_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[HYDRAULIC_ACTUATOR_CLASSES]; /* a hydraulic_actuator_candidate */
+    int16_t fault_class; /* the one that is left, or HYDRAULIC_ACTUATOR_UNKNOWN */
+
+    /* its own */
+    hydraulic_actuator_real above[HYDRAULIC_ACTUATOR_RESIDUALS];
+    hydraulic_actuator_real below[HYDRAULIC_ACTUATOR_RESIDUALS];
+    hydraulic_actuator_real louder[HYDRAULIC_ACTUATOR_RESIDUALS];
+    uint32_t streak[HYDRAULIC_ACTUATOR_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} hydraulic_actuator_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+hydraulic_actuator_limit hydraulic_actuator_limit_of(hydraulic_actuator_real level);
+
+/* Forgets everything. */
+void hydraulic_actuator_diagnosis_reset(hydraulic_actuator_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void hydraulic_actuator_clear(hydraulic_actuator_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool hydraulic_actuator_diagnose(
+    hydraulic_actuator_diagnosis *diagnosis,
+    const hydraulic_actuator_limit *limits,
+    const hydraulic_actuator_real *bounds,
+    const hydraulic_actuator_residuals *residuals);
 
 #ifdef __cplusplus
 }

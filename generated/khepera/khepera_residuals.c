@@ -1182,3 +1182,239 @@ void khepera_step(
     run_r4(monitor, samples, residuals);
     run_r5(monitor, samples, residuals);
 }
+
+const char khepera_fault_name[KHEPERA_FAULTS][11] = {
+    "m[1].el.L", "m[1].el.Re", "m[1].el.k", "m[1].me.Je", "m[1].me.fe", "U0[1]", "m[1].ge.N",
+    "m[1].wh.Js", "m[1].wh.R", "Fx[1]", "m[1].me.we", "m[1].wh.ws", "m[1].wh.fs", "m[1].tau0",
+    "m[1].A", "m[1].me.K", "m[2].el.L", "m[2].el.Re", "m[2].el.k", "m[2].me.Je", "m[2].me.fe",
+    "U0[2]", "m[2].ge.N", "m[2].wh.Js", "m[2].wh.R", "Fx[2]", "m[2].me.we", "m[2].wh.ws",
+    "m[2].wh.fs", "m[2].tau0", "m[2].A", "m[2].me.K", "line.R", "line.L", "line.C", "Uin", "Us",
+};
+
+const uint16_t khepera_fault_class[KHEPERA_FAULTS] = {
+    0u, 0u, 0u, 0u, 0u, 0u, 1u, 1u, 1u, 1u, 1u, 1u, 2u, 3u, 3u, 3u, 4u, 4u, 4u, 4u, 4u, 4u, 5u, 5u,
+    5u, 5u, 5u, 5u, 6u, 7u, 7u, 7u, 8u, 8u, 8u, 9u, 9u,
+};
+
+const char khepera_residual_name[KHEPERA_RESIDUALS][3] = {
+    "r1", "r2", "r3", "r4", "r5",
+};
+
+/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
+static const uint8_t signature[KHEPERA_CLASSES][KHEPERA_RESIDUALS] = {
+    {3u, 0u, 0u, 0u, 0u},
+    {3u, 3u, 0u, 0u, 0u},
+    {3u, 1u, 0u, 0u, 0u},
+    {0u, 3u, 0u, 0u, 0u},
+    {0u, 0u, 3u, 0u, 0u},
+    {0u, 0u, 3u, 3u, 0u},
+    {0u, 0u, 3u, 1u, 0u},
+    {0u, 0u, 0u, 3u, 0u},
+    {0u, 0u, 0u, 0u, 1u},
+    {0u, 0u, 0u, 0u, 3u},
+};
+
+#define NEVER REAL(1e30) /* a limit that nothing exceeds */
+#define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
+#define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
+#define SHARE REAL(0.3333333333333333) /* of the height, that a row adds at most */
+
+/* A sum, kept between zero and twice its height. */
+static real kept(real sum, real height)
+{
+    const real most = height + height;
+
+    return sum < REAL(0.0) ? REAL(0.0) : sum > most ? most : sum;
+}
+
+/* One row more of residual k; whether a sum is too high. off: from the mean, out: beyond bound. */
+static bool add_row(
+    khepera_diagnosis *d, const khepera_limit *limit, int k, real off, real out, real bound)
+{
+    const real top = limit->height + OVERSHOOT;
+    const real beyond = out > REAL(0.0) ? out : REAL(0.0);
+    const real loud = beyond * beyond * limit->loud - limit->drift;
+    const real most = SHARE * top;
+
+    d->above[k] = kept(d->above[k] + ((off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->below[k] = kept(d->below[k] + ((-off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->louder[k] = kept(d->louder[k] + (loud > most ? most : loud), top);
+    return d->above[k] > limit->height || d->below[k] > limit->height || d->louder[k] > top;
+}
+
+static bool sums_are_zero(const khepera_diagnosis *d, int k)
+{
+    const real sum = d->above[k] + d->below[k] + d->louder[k];
+
+    return !(sum > REAL(0.0));
+}
+
+static void forget_sums(khepera_diagnosis *d, int k)
+{
+    d->above[k] = REAL(0.0);
+    d->below[k] = REAL(0.0);
+    d->louder[k] = REAL(0.0);
+    d->streak[k] = 0u;
+}
+
+/* Residual k in one sample; whether it goes into alarm. */
+static bool watch(
+    khepera_diagnosis *d, const khepera_limit *limit, int k, real value, real bound, bool row)
+{
+    const real off = value - limit->mean;
+    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    bool high = false;
+
+    if (row) {
+        high = add_row(d, limit, k, off, out, bound);
+    }
+    if (d->state[k] == KHEPERA_ALARM) {
+        d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
+            d->quiet = 0u;
+        }
+        return false;
+    }
+    d->state[k] = KHEPERA_HEALTHY;
+    d->streak[k] = out > limit->level ? d->streak[k] + 1u : 0u;
+    if (d->streak[k] < d->least && !high) {
+        return false;
+    }
+    d->state[k] = KHEPERA_ALARM;
+    d->since[k] = 0u;
+    return true;
+}
+
+/* What is left of a class of faults. */
+static khepera_candidate left_of(const khepera_diagnosis *d, const uint8_t *own)
+{
+    khepera_candidate found = KHEPERA_LIKELY;
+    int k;
+
+    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+        if (d->state[k] == KHEPERA_ALARM && own[k] == 0u) {
+            return KHEPERA_RULED_OUT;
+        }
+        if (d->state[k] == KHEPERA_HEALTHY && own[k] == 3u) {
+            found = KHEPERA_SMALL;
+        }
+    }
+    return found;
+}
+
+/* Which classes of faults the residuals leave, and the one if it is one. */
+static void judge(khepera_diagnosis *d)
+{
+    int likely = 0;
+    int c;
+
+    d->fault_class = KHEPERA_UNKNOWN;
+    for (c = 0; c < KHEPERA_CLASSES; ++c) {
+        const khepera_candidate left = left_of(d, signature[c]);
+
+        d->candidate[c] = (uint8_t)left;
+        if (left == KHEPERA_LIKELY) {
+            d->fault_class = (int16_t)c;
+            ++likely;
+        }
+    }
+    if (likely != 1 || d->settled < 2u * d->row) {
+        d->fault_class = KHEPERA_UNKNOWN;
+    }
+}
+
+khepera_limit khepera_limit_of(khepera_real level)
+{
+    khepera_limit limit;
+
+    limit.mean = REAL(0.0);
+    limit.level = level;
+    limit.unit = REAL(0.0);
+    limit.loud = REAL(0.0);
+    limit.drift = REAL(0.5);
+    limit.height = NEVER;
+    limit.bound = REAL(0.0);
+    return limit;
+}
+
+void khepera_clear(khepera_diagnosis *diagnosis)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+        if (diagnosis->state[k] == KHEPERA_ALARM) {
+            diagnosis->state[k] = KHEPERA_HEALTHY;
+        }
+        diagnosis->since[k] = 0u;
+        forget_sums(diagnosis, k);
+    }
+    for (k = 0; k < KHEPERA_CLASSES; ++k) {
+        diagnosis->candidate[k] = KHEPERA_RULED_OUT;
+    }
+    diagnosis->fault_class = KHEPERA_UNKNOWN;
+    diagnosis->quiet = 0u;
+    diagnosis->settled = 0u;
+}
+
+void khepera_diagnosis_reset(khepera_diagnosis *diagnosis)
+{
+    int k;
+
+    diagnosis->row = KHEPERA_ROW;
+    diagnosis->least = 15u;
+    diagnosis->hold = 10u * KHEPERA_ROW;
+    diagnosis->latch = false;
+    diagnosis->tick = 0u;
+    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+        diagnosis->state[k] = KHEPERA_BLIND;
+    }
+    khepera_clear(diagnosis);
+}
+
+bool khepera_diagnose(
+    khepera_diagnosis *diagnosis,
+    const khepera_limit *limits,
+    const khepera_real *bounds,
+    const khepera_residuals *residuals)
+{
+    khepera_diagnosis *d = diagnosis;
+    bool alarm = false;
+    bool fresh = false;
+    bool row;
+    int k;
+
+    d->tick += 1u;
+    row = d->tick >= d->row;
+    if (row) {
+        d->tick = 0u;
+    }
+    d->quiet += d->quiet < UINT32_MAX ? 1u : 0u;
+    d->settled += d->settled < UINT32_MAX ? 1u : 0u;
+    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+        if (residuals->valid[k]) {
+            const real bound = bounds ? bounds[k] : limits[k].bound;
+
+            fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
+        } else {
+            forget_sums(d, k);
+            if (d->state[k] == KHEPERA_ALARM) {
+                d->quiet = 0u; /* nobody knows that it is over */
+            } else {
+                d->state[k] = KHEPERA_BLIND;
+            }
+        }
+        alarm = alarm || d->state[k] == KHEPERA_ALARM;
+    }
+    if (fresh) {
+        d->quiet = 0u;
+        d->settled = 0u;
+    }
+    if (alarm && !d->latch && d->quiet >= d->hold) {
+        khepera_clear(d);
+        return false;
+    }
+    if (fresh || (alarm && row)) {
+        judge(d);
+    }
+    return alarm;
+}

@@ -28,7 +28,7 @@ typedef double khepera_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_ABI (1u * 256u + (uint32_t)sizeof(khepera_real))
+#define KHEPERA_ABI (2u * 256u + (uint32_t)sizeof(khepera_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_DIGEST "acbdb6c7516b9cb9"
 
@@ -345,6 +345,97 @@ void khepera_exact(
     const khepera_monitor *monitor,
     const khepera_derivatives *derivatives,
     khepera_real residuals[KHEPERA_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    KHEPERA_FAULTS = 37,
+    KHEPERA_CLASSES = 10,
+    /* samples between two rows: three time constants of the filter */
+    KHEPERA_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char khepera_fault_name[KHEPERA_FAULTS][11];
+extern const uint16_t khepera_fault_class[KHEPERA_FAULTS];
+extern const char khepera_residual_name[KHEPERA_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct khepera_limit {
+    khepera_real mean;    /* where it stands */
+    khepera_real level;   /* how far from there a sample may be, beside its bound */
+    khepera_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    khepera_real loud;    /* factor of squares, in the sum of how loud it is */
+    khepera_real drift;   /* what that sum loses with each row */
+    khepera_real height;  /* of a sum, that is too much */
+    khepera_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} khepera_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum khepera_state {
+    KHEPERA_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    KHEPERA_HEALTHY,
+    KHEPERA_ALARM
+} khepera_state;
+
+typedef enum khepera_candidate {
+    KHEPERA_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    KHEPERA_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    KHEPERA_LIKELY
+} khepera_candidate;
+
+/* No class, or more than one. */
+#define KHEPERA_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct khepera_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: KHEPERA_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until khepera_clear */
+
+    /* for you to read */
+    uint8_t state[KHEPERA_RESIDUALS];   /* a khepera_state */
+    uint32_t since[KHEPERA_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[KHEPERA_CLASSES]; /* a khepera_candidate */
+    int16_t fault_class; /* the one that is left, or KHEPERA_UNKNOWN */
+
+    /* its own */
+    khepera_real above[KHEPERA_RESIDUALS];
+    khepera_real below[KHEPERA_RESIDUALS];
+    khepera_real louder[KHEPERA_RESIDUALS];
+    uint32_t streak[KHEPERA_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} khepera_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+khepera_limit khepera_limit_of(khepera_real level);
+
+/* Forgets everything. */
+void khepera_diagnosis_reset(khepera_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void khepera_clear(khepera_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool khepera_diagnose(
+    khepera_diagnosis *diagnosis,
+    const khepera_limit *limits,
+    const khepera_real *bounds,
+    const khepera_residuals *residuals);
 
 #ifdef __cplusplus
 }

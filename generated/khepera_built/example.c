@@ -1,25 +1,19 @@
 /*
  * example.c: KheperaBuilt watched by its residuals; a program to start from.
  *
- * Put your sensors into read_samples and what to do about a fault into raise_alarm. Compile:
+ * Put your sensors into read_samples and what to do about a fault into tell. Compile and run:
  *     cc -std=c99 -O2 example.c khepera_built_residuals.c -o example
+ *     ./example            a machine at rest
+ *     ./example log.csv    a log: a line with the names of its columns, and one for each sample
  */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "khepera_built_residuals.h"
 
 #define TICKS 5000
-
-/* How far a residual may be from 0 while all is well: measure this on your healthy machine. */
-static const khepera_built_real threshold[KHEPERA_BUILT_RESIDUALS] = {
-    KHEPERA_BUILT_CONSTANT(0.001), /* r1 */
-    KHEPERA_BUILT_CONSTANT(0.001), /* r2 */
-    KHEPERA_BUILT_CONSTANT(0.001), /* r3 */
-};
-
-static const char *const name[KHEPERA_BUILT_RESIDUALS] = {
-    "r1", "r2", "r3",
-};
+#define LONGEST 65536
 
 /* One sample of every signal, all taken at the same moment. Here: a machine at rest. */
 static void read_samples(khepera_built_samples *samples)
@@ -36,47 +30,152 @@ static void read_samples(khepera_built_samples *samples)
     samples->Us = 0;           /* V */
 }
 
-static void raise_alarm(int residual, khepera_built_real value)
+/* The value in a column of the log; all columns are looked for in its first line. */
+static double column(const char *names, const char *values, const char *name)
 {
-    printf("%s = %g: look for a fault that it sees\n", name[residual], (double)value);
+    const size_t length = strlen(name);
+    const char *at = names;
+    const char *value = values;
+
+    while (strncmp(at, name, length) != 0 || strchr(",\r\n", at[length]) == NULL) {
+        at = strchr(at, ',');
+        value = strchr(value, ',');
+        if (at == NULL || value == NULL) {
+            fprintf(stderr, "no value of %s in: %s", name, values);
+            exit(2);
+        }
+        ++at;
+        ++value;
+    }
+    return atof(value);
 }
 
-int main(void)
+/* The names of the columns, behind lines that tell about the log; false where there are none. */
+static bool read_names(FILE *log, char *names)
 {
+    if (log == NULL) {
+        return false;
+    }
+    do {
+        if (fgets(names, LONGEST, log) == NULL) {
+            return false;
+        }
+    } while (names[0] == '#');
+    return true;
+}
+
+/* The next sample of the log; false at its end. */
+static bool read_log(FILE *log, const char *names, khepera_built_samples *samples)
+{
+    static char line[LONGEST];
+
+    if (fgets(line, sizeof line, log) == NULL) {
+        return false;
+    }
+    samples->Fx__1 = (khepera_built_real)column(names, line, "Fx[1]");
+    samples->Fx__2 = (khepera_built_real)column(names, line, "Fx[2]");
+    samples->U0__1 = (khepera_built_real)column(names, line, "U0[1]");
+    samples->U0__2 = (khepera_built_real)column(names, line, "U0[2]");
+    samples->Uin = (khepera_built_real)column(names, line, "Uin");
+    samples->m__1__motor = (int32_t)column(names, line, "m[1].motor");
+    samples->m__2__motor = (int32_t)column(names, line, "m[2].motor");
+    samples->Us = (khepera_built_real)column(names, line, "Us");
+    return true;
+}
+
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const khepera_built_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_BUILT_RESIDUALS; ++k) {
+        if (found->state[k] == KHEPERA_BUILT_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const khepera_built_diagnosis *found, khepera_built_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_BUILT_FAULTS; ++k) {
+        if (found->candidate[khepera_built_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, khepera_built_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
+/* What is wrong now, in words. */
+static void tell(const khepera_built_diagnosis *found, long tick)
+{
+    const bool sure = found->fault_class != KHEPERA_BUILT_UNKNOWN;
+    const char *between = ": ";
+    int k;
+
+    printf("sample %ld", tick);
+    for (k = 0; k < KHEPERA_BUILT_RESIDUALS; ++k) {
+        if (found->state[k] == KHEPERA_BUILT_ALARM) {
+            printf("%s%s", between, khepera_built_residual_name[k]);
+            between = ", ";
+        }
+    }
+    printf(" in alarm");
+    list(found, KHEPERA_BUILT_LIKELY, sure ? "; one of " : "; perhaps ");
+    list(found, KHEPERA_BUILT_SMALL, "; or, if it is small, ");
+    printf("\n");
+}
+
+int main(int count, char **words)
+{
+    static char names[LONGEST];
+    FILE *log = count > 1 ? fopen(words[1], "r") : NULL;
     khepera_built_parameters parameters;
     khepera_built_monitor monitor;
-    khepera_built_status status;
+    khepera_built_diagnosis found;
     khepera_built_samples samples;
     khepera_built_residuals residuals;
+    khepera_built_limit limits[KHEPERA_BUILT_RESIDUALS];
+    int told = KHEPERA_BUILT_UNKNOWN;
+    bool alarmed = false;
     int alarms = 0;
-    int tick;
-    int k;
+    long tick;
 
     if (khepera_built_abi() != KHEPERA_BUILT_ABI) {
         return 2; /* the library was compiled from another version, or with another real */
     }
-    khepera_built_nominal(&parameters);
-    status = khepera_built_configure(
-        &monitor,
-        &parameters,
-        KHEPERA_BUILT_SAMPLE_TIME,
-        KHEPERA_BUILT_BANDWIDTH,
-        KHEPERA_BUILT_TIME_UNIT);
-    if (status != KHEPERA_BUILT_OK) {
+    if (count > 1 && !read_names(log, names)) {
         return 2;
     }
-    for (tick = 0; tick < TICKS; ++tick) { /* every sample_time, from a timer */
-        read_samples(&samples);
-        khepera_built_step(&monitor, &samples, &residuals);
-        for (k = 0; k < KHEPERA_BUILT_RESIDUALS; ++k) {
-            const khepera_built_real r = residuals.value[k];
-
-            if (residuals.valid[k] && (r > threshold[k] || r < -threshold[k])) {
-                raise_alarm(k, r);
-                ++alarms;
-            }
-        }
+    for (tick = 0; tick < KHEPERA_BUILT_RESIDUALS; ++tick) {
+        /* how far it may be from 0: measure that, or compile with a tuning, which knows more */
+        limits[tick] = khepera_built_limit_of(KHEPERA_BUILT_CONSTANT(0.001));
     }
-    printf("%d samples, %d alarms\n", TICKS, alarms);
+    khepera_built_nominal(&parameters);
+    if (khepera_built_configure(&monitor, &parameters, KHEPERA_BUILT_SAMPLE_TIME, KHEPERA_BUILT_BANDWIDTH,
+            KHEPERA_BUILT_TIME_UNIT) != KHEPERA_BUILT_OK) {
+        return 2;
+    }
+    khepera_built_diagnosis_reset(&found);
+    for (tick = 0; log != NULL || tick < TICKS; ++tick) { /* every sample_time, from a timer */
+        bool alarm;
+
+        read_samples(&samples);
+        if (log != NULL && !read_log(log, names, &samples)) {
+            break;
+        }
+        khepera_built_step(&monitor, &samples, &residuals);
+        alarm = khepera_built_diagnose(&found, limits, NULL, &residuals);
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
+            tell(&found, tick);
+            alarms += alarmed ? 0 : 1;
+            told = found.fault_class;
+        }
+        alarmed = alarm;
+    }
+    printf("%ld samples, %d alarms\n", tick, alarms);
     return 0;
 }

@@ -27,7 +27,7 @@ typedef double khepera_built_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_BUILT_ABI (1u * 256u + (uint32_t)sizeof(khepera_built_real))
+#define KHEPERA_BUILT_ABI (2u * 256u + (uint32_t)sizeof(khepera_built_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_BUILT_DIGEST "872d2dbbde918374"
 
@@ -263,6 +263,97 @@ void khepera_built_exact(
     const khepera_built_monitor *monitor,
     const khepera_built_derivatives *derivatives,
     khepera_built_real residuals[KHEPERA_BUILT_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    KHEPERA_BUILT_FAULTS = 27,
+    KHEPERA_BUILT_CLASSES = 4,
+    /* samples between two rows: three time constants of the filter */
+    KHEPERA_BUILT_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char khepera_built_fault_name[KHEPERA_BUILT_FAULTS][11];
+extern const uint16_t khepera_built_fault_class[KHEPERA_BUILT_FAULTS];
+extern const char khepera_built_residual_name[KHEPERA_BUILT_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct khepera_built_limit {
+    khepera_built_real mean;    /* where it stands */
+    khepera_built_real level;   /* how far from there a sample may be, beside its bound */
+    khepera_built_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    khepera_built_real loud;    /* factor of squares, in the sum of how loud it is */
+    khepera_built_real drift;   /* what that sum loses with each row */
+    khepera_built_real height;  /* of a sum, that is too much */
+    khepera_built_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} khepera_built_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum khepera_built_state {
+    KHEPERA_BUILT_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    KHEPERA_BUILT_HEALTHY,
+    KHEPERA_BUILT_ALARM
+} khepera_built_state;
+
+typedef enum khepera_built_candidate {
+    KHEPERA_BUILT_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    KHEPERA_BUILT_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    KHEPERA_BUILT_LIKELY
+} khepera_built_candidate;
+
+/* No class, or more than one. */
+#define KHEPERA_BUILT_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct khepera_built_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: KHEPERA_BUILT_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until khepera_built_clear */
+
+    /* for you to read */
+    uint8_t state[KHEPERA_BUILT_RESIDUALS];   /* a khepera_built_state */
+    uint32_t since[KHEPERA_BUILT_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[KHEPERA_BUILT_CLASSES]; /* a khepera_built_candidate */
+    int16_t fault_class; /* the one that is left, or KHEPERA_BUILT_UNKNOWN */
+
+    /* its own */
+    khepera_built_real above[KHEPERA_BUILT_RESIDUALS];
+    khepera_built_real below[KHEPERA_BUILT_RESIDUALS];
+    khepera_built_real louder[KHEPERA_BUILT_RESIDUALS];
+    uint32_t streak[KHEPERA_BUILT_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} khepera_built_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+khepera_built_limit khepera_built_limit_of(khepera_built_real level);
+
+/* Forgets everything. */
+void khepera_built_diagnosis_reset(khepera_built_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void khepera_built_clear(khepera_built_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool khepera_built_diagnose(
+    khepera_built_diagnosis *diagnosis,
+    const khepera_built_limit *limits,
+    const khepera_built_real *bounds,
+    const khepera_built_residuals *residuals);
 
 #ifdef __cplusplus
 }

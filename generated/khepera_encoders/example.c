@@ -1,27 +1,19 @@
 /*
  * example.c: KheperaEncoders watched by its residuals; a program to start from.
  *
- * Put your sensors into read_samples and what to do about a fault into raise_alarm. Compile:
+ * Put your sensors into read_samples and what to do about a fault into tell. Compile and run:
  *     cc -std=c99 -O2 example.c khepera_encoders_residuals.c -o example -lm
+ *     ./example            a machine at rest
+ *     ./example log.csv    a log: a line with the names of its columns, and one for each sample
  */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "khepera_encoders_residuals.h"
 
 #define TICKS 5000
-
-/* How far a residual may be from 0 while all is well: measure this on your healthy machine. */
-static const khepera_encoders_real threshold[KHEPERA_ENCODERS_RESIDUALS] = {
-    KHEPERA_ENCODERS_CONSTANT(0.001), /* r1 */
-    KHEPERA_ENCODERS_CONSTANT(0.001), /* r2 */
-    KHEPERA_ENCODERS_CONSTANT(0.001), /* r3 */
-    KHEPERA_ENCODERS_CONSTANT(0.001), /* r4 */
-    KHEPERA_ENCODERS_CONSTANT(0.001), /* r5 */
-};
-
-static const char *const name[KHEPERA_ENCODERS_RESIDUALS] = {
-    "r1", "r2", "r3", "r4", "r5",
-};
+#define LONGEST 65536
 
 /* One sample of every signal, all taken at the same moment. Here: a machine at rest. */
 static void read_samples(khepera_encoders_samples *samples)
@@ -41,47 +33,155 @@ static void read_samples(khepera_encoders_samples *samples)
     samples->Us = 0;           /* V */
 }
 
-static void raise_alarm(int residual, khepera_encoders_real value)
+/* The value in a column of the log; all columns are looked for in its first line. */
+static double column(const char *names, const char *values, const char *name)
 {
-    printf("%s = %g: look for a fault that it sees\n", name[residual], (double)value);
+    const size_t length = strlen(name);
+    const char *at = names;
+    const char *value = values;
+
+    while (strncmp(at, name, length) != 0 || strchr(",\r\n", at[length]) == NULL) {
+        at = strchr(at, ',');
+        value = strchr(value, ',');
+        if (at == NULL || value == NULL) {
+            fprintf(stderr, "no value of %s in: %s", name, values);
+            exit(2);
+        }
+        ++at;
+        ++value;
+    }
+    return atof(value);
 }
 
-int main(void)
+/* The names of the columns, behind lines that tell about the log; false where there are none. */
+static bool read_names(FILE *log, char *names)
 {
+    if (log == NULL) {
+        return false;
+    }
+    do {
+        if (fgets(names, LONGEST, log) == NULL) {
+            return false;
+        }
+    } while (names[0] == '#');
+    return true;
+}
+
+/* The next sample of the log; false at its end. */
+static bool read_log(FILE *log, const char *names, khepera_encoders_samples *samples)
+{
+    static char line[LONGEST];
+
+    if (fgets(line, sizeof line, log) == NULL) {
+        return false;
+    }
+    samples->Fx__1 = (khepera_encoders_real)column(names, line, "Fx[1]");
+    samples->Fx__2 = (khepera_encoders_real)column(names, line, "Fx[2]");
+    samples->load = (khepera_encoders_real)column(names, line, "load");
+    samples->U0__1 = (khepera_encoders_real)column(names, line, "U0[1]");
+    samples->U0__2 = (khepera_encoders_real)column(names, line, "U0[2]");
+    samples->Uin = (khepera_encoders_real)column(names, line, "Uin");
+    samples->m__1__motor = (int32_t)column(names, line, "m[1].motor");
+    samples->m__1__wheel = (int32_t)column(names, line, "m[1].wheel");
+    samples->m__2__motor = (int32_t)column(names, line, "m[2].motor");
+    samples->m__2__wheel = (int32_t)column(names, line, "m[2].wheel");
+    samples->Us = (khepera_encoders_real)column(names, line, "Us");
+    return true;
+}
+
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const khepera_encoders_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+        if (found->state[k] == KHEPERA_ENCODERS_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const khepera_encoders_diagnosis *found, khepera_encoders_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_ENCODERS_FAULTS; ++k) {
+        if (found->candidate[khepera_encoders_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, khepera_encoders_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
+/* What is wrong now, in words. */
+static void tell(const khepera_encoders_diagnosis *found, long tick)
+{
+    const bool sure = found->fault_class != KHEPERA_ENCODERS_UNKNOWN;
+    const char *between = ": ";
+    int k;
+
+    printf("sample %ld", tick);
+    for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+        if (found->state[k] == KHEPERA_ENCODERS_ALARM) {
+            printf("%s%s", between, khepera_encoders_residual_name[k]);
+            between = ", ";
+        }
+    }
+    printf(" in alarm");
+    list(found, KHEPERA_ENCODERS_LIKELY, sure ? "; one of " : "; perhaps ");
+    list(found, KHEPERA_ENCODERS_SMALL, "; or, if it is small, ");
+    printf("\n");
+}
+
+int main(int count, char **words)
+{
+    static char names[LONGEST];
+    FILE *log = count > 1 ? fopen(words[1], "r") : NULL;
     khepera_encoders_parameters parameters;
     khepera_encoders_monitor monitor;
-    khepera_encoders_status status;
+    khepera_encoders_diagnosis found;
     khepera_encoders_samples samples;
     khepera_encoders_residuals residuals;
+    khepera_encoders_limit limits[KHEPERA_ENCODERS_RESIDUALS];
+    int told = KHEPERA_ENCODERS_UNKNOWN;
+    bool alarmed = false;
     int alarms = 0;
-    int tick;
-    int k;
+    long tick;
 
     if (khepera_encoders_abi() != KHEPERA_ENCODERS_ABI) {
         return 2; /* the library was compiled from another version, or with another real */
     }
-    khepera_encoders_nominal(&parameters);
-    status = khepera_encoders_configure(
-        &monitor,
-        &parameters,
-        KHEPERA_ENCODERS_SAMPLE_TIME,
-        KHEPERA_ENCODERS_BANDWIDTH,
-        KHEPERA_ENCODERS_TIME_UNIT);
-    if (status != KHEPERA_ENCODERS_OK) {
+    if (count > 1 && !read_names(log, names)) {
         return 2;
     }
-    for (tick = 0; tick < TICKS; ++tick) { /* every sample_time, from a timer */
-        read_samples(&samples);
-        khepera_encoders_step(&monitor, &samples, &residuals);
-        for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
-            const khepera_encoders_real r = residuals.value[k];
-
-            if (residuals.valid[k] && (r > threshold[k] || r < -threshold[k])) {
-                raise_alarm(k, r);
-                ++alarms;
-            }
-        }
+    for (tick = 0; tick < KHEPERA_ENCODERS_RESIDUALS; ++tick) {
+        /* how far it may be from 0: measure that, or compile with a tuning, which knows more */
+        limits[tick] = khepera_encoders_limit_of(KHEPERA_ENCODERS_CONSTANT(0.001));
     }
-    printf("%d samples, %d alarms\n", TICKS, alarms);
+    khepera_encoders_nominal(&parameters);
+    if (khepera_encoders_configure(&monitor, &parameters, KHEPERA_ENCODERS_SAMPLE_TIME, KHEPERA_ENCODERS_BANDWIDTH,
+            KHEPERA_ENCODERS_TIME_UNIT) != KHEPERA_ENCODERS_OK) {
+        return 2;
+    }
+    khepera_encoders_diagnosis_reset(&found);
+    for (tick = 0; log != NULL || tick < TICKS; ++tick) { /* every sample_time, from a timer */
+        bool alarm;
+
+        read_samples(&samples);
+        if (log != NULL && !read_log(log, names, &samples)) {
+            break;
+        }
+        khepera_encoders_step(&monitor, &samples, &residuals);
+        alarm = khepera_encoders_diagnose(&found, limits, NULL, &residuals);
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
+            tell(&found, tick);
+            alarms += alarmed ? 0 : 1;
+            told = found.fault_class;
+        }
+        alarmed = alarm;
+    }
+    printf("%ld samples, %d alarms\n", tick, alarms);
     return 0;
 }

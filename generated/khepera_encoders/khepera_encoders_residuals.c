@@ -1481,3 +1481,236 @@ void khepera_encoders_step(
     run_r4(monitor, samples, residuals);
     run_r5(monitor, samples, residuals);
 }
+
+const char khepera_encoders_fault_name[KHEPERA_ENCODERS_FAULTS][11] = {
+    "m[1].Je", "m[1].fe", "m[1].el.L", "m[1].el.Re", "m[1].el.k", "U0[1]", "m[1].Js", "m[1].fs",
+    "m[1].R", "m[1].ge.N", "Fx[1]", "m[1].motor", "m[1].wheel", "m[1].K", "m[1].tau0", "m[2].Je",
+    "m[2].fe", "m[2].el.L", "m[2].el.Re", "m[2].el.k", "U0[2]", "m[2].Js", "m[2].fs", "m[2].R",
+    "m[2].ge.N", "Fx[2]", "m[2].motor", "m[2].wheel", "m[2].K", "m[2].tau0", "R_L", "load", "Uin",
+    "Us",
+};
+
+const uint16_t khepera_encoders_fault_class[KHEPERA_ENCODERS_FAULTS] = {
+    0u, 0u, 0u, 0u, 0u, 0u, 1u, 1u, 1u, 1u, 1u, 1u, 1u, 2u, 2u, 3u, 3u, 3u, 3u, 3u, 3u, 4u, 4u, 4u,
+    4u, 4u, 4u, 4u, 5u, 5u, 6u, 6u, 6u, 6u,
+};
+
+const char khepera_encoders_residual_name[KHEPERA_ENCODERS_RESIDUALS][3] = {
+    "r1", "r2", "r3", "r4", "r5",
+};
+
+/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
+static const uint8_t signature[KHEPERA_ENCODERS_CLASSES][KHEPERA_ENCODERS_RESIDUALS] = {
+    {3u, 0u, 0u, 0u, 0u},
+    {3u, 3u, 0u, 0u, 0u},
+    {0u, 3u, 0u, 0u, 0u},
+    {0u, 0u, 3u, 0u, 0u},
+    {0u, 0u, 3u, 3u, 0u},
+    {0u, 0u, 0u, 3u, 0u},
+    {0u, 0u, 0u, 0u, 3u},
+};
+
+#define NEVER REAL(1e30) /* a limit that nothing exceeds */
+#define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
+#define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
+#define SHARE REAL(0.3333333333333333) /* of the height, that a row adds at most */
+
+/* A sum, kept between zero and twice its height. */
+static real kept(real sum, real height)
+{
+    const real most = height + height;
+
+    return sum < REAL(0.0) ? REAL(0.0) : sum > most ? most : sum;
+}
+
+/* One row more of residual k; whether a sum is too high. off: from the mean, out: beyond bound. */
+static bool add_row(
+    khepera_encoders_diagnosis *d, const khepera_encoders_limit *limit, int k, real off, real out, real bound)
+{
+    const real top = limit->height + OVERSHOOT;
+    const real beyond = out > REAL(0.0) ? out : REAL(0.0);
+    const real loud = beyond * beyond * limit->loud - limit->drift;
+    const real most = SHARE * top;
+
+    d->above[k] = kept(d->above[k] + ((off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->below[k] = kept(d->below[k] + ((-off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->louder[k] = kept(d->louder[k] + (loud > most ? most : loud), top);
+    return d->above[k] > limit->height || d->below[k] > limit->height || d->louder[k] > top;
+}
+
+static bool sums_are_zero(const khepera_encoders_diagnosis *d, int k)
+{
+    const real sum = d->above[k] + d->below[k] + d->louder[k];
+
+    return !(sum > REAL(0.0));
+}
+
+static void forget_sums(khepera_encoders_diagnosis *d, int k)
+{
+    d->above[k] = REAL(0.0);
+    d->below[k] = REAL(0.0);
+    d->louder[k] = REAL(0.0);
+    d->streak[k] = 0u;
+}
+
+/* Residual k in one sample; whether it goes into alarm. */
+static bool watch(
+    khepera_encoders_diagnosis *d, const khepera_encoders_limit *limit, int k, real value, real bound, bool row)
+{
+    const real off = value - limit->mean;
+    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    bool high = false;
+
+    if (row) {
+        high = add_row(d, limit, k, off, out, bound);
+    }
+    if (d->state[k] == KHEPERA_ENCODERS_ALARM) {
+        d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
+            d->quiet = 0u;
+        }
+        return false;
+    }
+    d->state[k] = KHEPERA_ENCODERS_HEALTHY;
+    d->streak[k] = out > limit->level ? d->streak[k] + 1u : 0u;
+    if (d->streak[k] < d->least && !high) {
+        return false;
+    }
+    d->state[k] = KHEPERA_ENCODERS_ALARM;
+    d->since[k] = 0u;
+    return true;
+}
+
+/* What is left of a class of faults. */
+static khepera_encoders_candidate left_of(const khepera_encoders_diagnosis *d, const uint8_t *own)
+{
+    khepera_encoders_candidate found = KHEPERA_ENCODERS_LIKELY;
+    int k;
+
+    for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+        if (d->state[k] == KHEPERA_ENCODERS_ALARM && own[k] == 0u) {
+            return KHEPERA_ENCODERS_RULED_OUT;
+        }
+        if (d->state[k] == KHEPERA_ENCODERS_HEALTHY && own[k] == 3u) {
+            found = KHEPERA_ENCODERS_SMALL;
+        }
+    }
+    return found;
+}
+
+/* Which classes of faults the residuals leave, and the one if it is one. */
+static void judge(khepera_encoders_diagnosis *d)
+{
+    int likely = 0;
+    int c;
+
+    d->fault_class = KHEPERA_ENCODERS_UNKNOWN;
+    for (c = 0; c < KHEPERA_ENCODERS_CLASSES; ++c) {
+        const khepera_encoders_candidate left = left_of(d, signature[c]);
+
+        d->candidate[c] = (uint8_t)left;
+        if (left == KHEPERA_ENCODERS_LIKELY) {
+            d->fault_class = (int16_t)c;
+            ++likely;
+        }
+    }
+    if (likely != 1 || d->settled < 2u * d->row) {
+        d->fault_class = KHEPERA_ENCODERS_UNKNOWN;
+    }
+}
+
+khepera_encoders_limit khepera_encoders_limit_of(khepera_encoders_real level)
+{
+    khepera_encoders_limit limit;
+
+    limit.mean = REAL(0.0);
+    limit.level = level;
+    limit.unit = REAL(0.0);
+    limit.loud = REAL(0.0);
+    limit.drift = REAL(0.5);
+    limit.height = NEVER;
+    limit.bound = REAL(0.0);
+    return limit;
+}
+
+void khepera_encoders_clear(khepera_encoders_diagnosis *diagnosis)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+        if (diagnosis->state[k] == KHEPERA_ENCODERS_ALARM) {
+            diagnosis->state[k] = KHEPERA_ENCODERS_HEALTHY;
+        }
+        diagnosis->since[k] = 0u;
+        forget_sums(diagnosis, k);
+    }
+    for (k = 0; k < KHEPERA_ENCODERS_CLASSES; ++k) {
+        diagnosis->candidate[k] = KHEPERA_ENCODERS_RULED_OUT;
+    }
+    diagnosis->fault_class = KHEPERA_ENCODERS_UNKNOWN;
+    diagnosis->quiet = 0u;
+    diagnosis->settled = 0u;
+}
+
+void khepera_encoders_diagnosis_reset(khepera_encoders_diagnosis *diagnosis)
+{
+    int k;
+
+    diagnosis->row = KHEPERA_ENCODERS_ROW;
+    diagnosis->least = 15u;
+    diagnosis->hold = 10u * KHEPERA_ENCODERS_ROW;
+    diagnosis->latch = false;
+    diagnosis->tick = 0u;
+    for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+        diagnosis->state[k] = KHEPERA_ENCODERS_BLIND;
+    }
+    khepera_encoders_clear(diagnosis);
+}
+
+bool khepera_encoders_diagnose(
+    khepera_encoders_diagnosis *diagnosis,
+    const khepera_encoders_limit *limits,
+    const khepera_encoders_real *bounds,
+    const khepera_encoders_residuals *residuals)
+{
+    khepera_encoders_diagnosis *d = diagnosis;
+    bool alarm = false;
+    bool fresh = false;
+    bool row;
+    int k;
+
+    d->tick += 1u;
+    row = d->tick >= d->row;
+    if (row) {
+        d->tick = 0u;
+    }
+    d->quiet += d->quiet < UINT32_MAX ? 1u : 0u;
+    d->settled += d->settled < UINT32_MAX ? 1u : 0u;
+    for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+        if (residuals->valid[k]) {
+            const real bound = bounds ? bounds[k] : limits[k].bound;
+
+            fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
+        } else {
+            forget_sums(d, k);
+            if (d->state[k] == KHEPERA_ENCODERS_ALARM) {
+                d->quiet = 0u; /* nobody knows that it is over */
+            } else {
+                d->state[k] = KHEPERA_ENCODERS_BLIND;
+            }
+        }
+        alarm = alarm || d->state[k] == KHEPERA_ENCODERS_ALARM;
+    }
+    if (fresh) {
+        d->quiet = 0u;
+        d->settled = 0u;
+    }
+    if (alarm && !d->latch && d->quiet >= d->hold) {
+        khepera_encoders_clear(d);
+        return false;
+    }
+    if (fresh || (alarm && row)) {
+        judge(d);
+    }
+    return alarm;
+}

@@ -27,7 +27,7 @@ typedef double khepera_encoders_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_ENCODERS_ABI (1u * 256u + (uint32_t)sizeof(khepera_encoders_real))
+#define KHEPERA_ENCODERS_ABI (2u * 256u + (uint32_t)sizeof(khepera_encoders_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_ENCODERS_DIGEST "a33c45089ed38933"
 
@@ -368,6 +368,97 @@ void khepera_encoders_exact(
     const khepera_encoders_monitor *monitor,
     const khepera_encoders_derivatives *derivatives,
     khepera_encoders_real residuals[KHEPERA_ENCODERS_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    KHEPERA_ENCODERS_FAULTS = 34,
+    KHEPERA_ENCODERS_CLASSES = 7,
+    /* samples between two rows: three time constants of the filter */
+    KHEPERA_ENCODERS_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char khepera_encoders_fault_name[KHEPERA_ENCODERS_FAULTS][11];
+extern const uint16_t khepera_encoders_fault_class[KHEPERA_ENCODERS_FAULTS];
+extern const char khepera_encoders_residual_name[KHEPERA_ENCODERS_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct khepera_encoders_limit {
+    khepera_encoders_real mean;    /* where it stands */
+    khepera_encoders_real level;   /* how far from there a sample may be, beside its bound */
+    khepera_encoders_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    khepera_encoders_real loud;    /* factor of squares, in the sum of how loud it is */
+    khepera_encoders_real drift;   /* what that sum loses with each row */
+    khepera_encoders_real height;  /* of a sum, that is too much */
+    khepera_encoders_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} khepera_encoders_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum khepera_encoders_state {
+    KHEPERA_ENCODERS_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    KHEPERA_ENCODERS_HEALTHY,
+    KHEPERA_ENCODERS_ALARM
+} khepera_encoders_state;
+
+typedef enum khepera_encoders_candidate {
+    KHEPERA_ENCODERS_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    KHEPERA_ENCODERS_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    KHEPERA_ENCODERS_LIKELY
+} khepera_encoders_candidate;
+
+/* No class, or more than one. */
+#define KHEPERA_ENCODERS_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct khepera_encoders_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: KHEPERA_ENCODERS_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until khepera_encoders_clear */
+
+    /* for you to read */
+    uint8_t state[KHEPERA_ENCODERS_RESIDUALS];   /* a khepera_encoders_state */
+    uint32_t since[KHEPERA_ENCODERS_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[KHEPERA_ENCODERS_CLASSES]; /* a khepera_encoders_candidate */
+    int16_t fault_class; /* the one that is left, or KHEPERA_ENCODERS_UNKNOWN */
+
+    /* its own */
+    khepera_encoders_real above[KHEPERA_ENCODERS_RESIDUALS];
+    khepera_encoders_real below[KHEPERA_ENCODERS_RESIDUALS];
+    khepera_encoders_real louder[KHEPERA_ENCODERS_RESIDUALS];
+    uint32_t streak[KHEPERA_ENCODERS_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} khepera_encoders_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+khepera_encoders_limit khepera_encoders_limit_of(khepera_encoders_real level);
+
+/* Forgets everything. */
+void khepera_encoders_diagnosis_reset(khepera_encoders_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void khepera_encoders_clear(khepera_encoders_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool khepera_encoders_diagnose(
+    khepera_encoders_diagnosis *diagnosis,
+    const khepera_encoders_limit *limits,
+    const khepera_encoders_real *bounds,
+    const khepera_encoders_residuals *residuals);
 
 #ifdef __cplusplus
 }

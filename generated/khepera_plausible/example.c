@@ -1,27 +1,19 @@
 /*
  * example.c: KheperaPlausible watched by its residuals; a program to start from.
  *
- * Put your sensors into read_samples and what to do about a fault into raise_alarm. Compile:
+ * Put your sensors into read_samples and what to do about a fault into tell. Compile and run:
  *     cc -std=c99 -O2 example.c khepera_plausible_residuals.c -o example -lm
+ *     ./example            a machine at rest
+ *     ./example log.csv    a log: a line with the names of its columns, and one for each sample
  */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "khepera_plausible_residuals.h"
 
 #define TICKS 5000
-
-/* How far a residual may be from 0 while all is well: measure this on your healthy machine. */
-static const khepera_plausible_real threshold[KHEPERA_PLAUSIBLE_RESIDUALS] = {
-    KHEPERA_PLAUSIBLE_CONSTANT(0.001), /* r1 */
-    KHEPERA_PLAUSIBLE_CONSTANT(0.001), /* r2 */
-    KHEPERA_PLAUSIBLE_CONSTANT(0.001), /* r3 */
-    KHEPERA_PLAUSIBLE_CONSTANT(0.001), /* r4 */
-    KHEPERA_PLAUSIBLE_CONSTANT(0.001), /* r5 */
-};
-
-static const char *const name[KHEPERA_PLAUSIBLE_RESIDUALS] = {
-    "r1", "r2", "r3", "r4", "r5",
-};
+#define LONGEST 65536
 
 /* One sample of every signal, all taken at the same moment. Here: a machine at rest. */
 static void read_samples(khepera_plausible_samples *samples)
@@ -42,47 +34,154 @@ static void read_samples(khepera_plausible_samples *samples)
     samples->robot__Us = 0;            /* V: robot.Us */
 }
 
-static void raise_alarm(int residual, khepera_plausible_real value)
+/* The value in a column of the log; all columns are looked for in its first line. */
+static double column(const char *names, const char *values, const char *name)
 {
-    printf("%s = %g: look for a fault that it sees\n", name[residual], (double)value);
+    const size_t length = strlen(name);
+    const char *at = names;
+    const char *value = values;
+
+    while (strncmp(at, name, length) != 0 || strchr(",\r\n", at[length]) == NULL) {
+        at = strchr(at, ',');
+        value = strchr(value, ',');
+        if (at == NULL || value == NULL) {
+            fprintf(stderr, "no value of %s in: %s", name, values);
+            exit(2);
+        }
+        ++at;
+        ++value;
+    }
+    return atof(value);
 }
 
-int main(void)
+/* The names of the columns, behind lines that tell about the log; false where there are none. */
+static bool read_names(FILE *log, char *names)
 {
+    if (log == NULL) {
+        return false;
+    }
+    do {
+        if (fgets(names, LONGEST, log) == NULL) {
+            return false;
+        }
+    } while (names[0] == '#');
+    return true;
+}
+
+/* The next sample of the log; false at its end. */
+static bool read_log(FILE *log, const char *names, khepera_plausible_samples *samples)
+{
+    static char line[LONGEST];
+
+    if (fgets(line, sizeof line, log) == NULL) {
+        return false;
+    }
+    samples->robot__Fx__1 = (khepera_plausible_real)column(names, line, "robot.Fx[1]");
+    samples->robot__Fx__2 = (khepera_plausible_real)column(names, line, "robot.Fx[2]");
+    samples->robot__U0__1 = (khepera_plausible_real)column(names, line, "robot.U0[1]");
+    samples->robot__U0__2 = (khepera_plausible_real)column(names, line, "robot.U0[2]");
+    samples->robot__Uin = (khepera_plausible_real)column(names, line, "robot.Uin");
+    samples->robot__m__1__me__we = (khepera_plausible_real)column(names, line, "robot.m[1].me.we");
+    samples->robot__m__1__wh__ws = (khepera_plausible_real)column(names, line, "robot.m[1].wh.ws");
+    samples->robot__m__2__me__we = (khepera_plausible_real)column(names, line, "robot.m[2].me.we");
+    samples->robot__m__2__wh__ws = (khepera_plausible_real)column(names, line, "robot.m[2].wh.ws");
+    samples->robot__Us = (khepera_plausible_real)column(names, line, "robot.Us");
+    return true;
+}
+
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const khepera_plausible_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
+        if (found->state[k] == KHEPERA_PLAUSIBLE_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const khepera_plausible_diagnosis *found, khepera_plausible_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_PLAUSIBLE_FAULTS; ++k) {
+        if (found->candidate[khepera_plausible_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, khepera_plausible_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
+/* What is wrong now, in words. */
+static void tell(const khepera_plausible_diagnosis *found, long tick)
+{
+    const bool sure = found->fault_class != KHEPERA_PLAUSIBLE_UNKNOWN;
+    const char *between = ": ";
+    int k;
+
+    printf("sample %ld", tick);
+    for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
+        if (found->state[k] == KHEPERA_PLAUSIBLE_ALARM) {
+            printf("%s%s", between, khepera_plausible_residual_name[k]);
+            between = ", ";
+        }
+    }
+    printf(" in alarm");
+    list(found, KHEPERA_PLAUSIBLE_LIKELY, sure ? "; one of " : "; perhaps ");
+    list(found, KHEPERA_PLAUSIBLE_SMALL, "; or, if it is small, ");
+    printf("\n");
+}
+
+int main(int count, char **words)
+{
+    static char names[LONGEST];
+    FILE *log = count > 1 ? fopen(words[1], "r") : NULL;
     khepera_plausible_parameters parameters;
     khepera_plausible_monitor monitor;
-    khepera_plausible_status status;
+    khepera_plausible_diagnosis found;
     khepera_plausible_samples samples;
     khepera_plausible_residuals residuals;
+    khepera_plausible_limit limits[KHEPERA_PLAUSIBLE_RESIDUALS];
+    int told = KHEPERA_PLAUSIBLE_UNKNOWN;
+    bool alarmed = false;
     int alarms = 0;
-    int tick;
-    int k;
+    long tick;
 
     if (khepera_plausible_abi() != KHEPERA_PLAUSIBLE_ABI) {
         return 2; /* the library was compiled from another version, or with another real */
     }
-    khepera_plausible_nominal(&parameters);
-    status = khepera_plausible_configure(
-        &monitor,
-        &parameters,
-        KHEPERA_PLAUSIBLE_SAMPLE_TIME,
-        KHEPERA_PLAUSIBLE_BANDWIDTH,
-        KHEPERA_PLAUSIBLE_TIME_UNIT);
-    if (status != KHEPERA_PLAUSIBLE_OK) {
+    if (count > 1 && !read_names(log, names)) {
         return 2;
     }
-    for (tick = 0; tick < TICKS; ++tick) { /* every sample_time, from a timer */
-        read_samples(&samples);
-        khepera_plausible_step(&monitor, &samples, &residuals);
-        for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
-            const khepera_plausible_real r = residuals.value[k];
-
-            if (residuals.valid[k] && (r > threshold[k] || r < -threshold[k])) {
-                raise_alarm(k, r);
-                ++alarms;
-            }
-        }
+    for (tick = 0; tick < KHEPERA_PLAUSIBLE_RESIDUALS; ++tick) {
+        /* how far it may be from 0: measure that, or compile with a tuning, which knows more */
+        limits[tick] = khepera_plausible_limit_of(KHEPERA_PLAUSIBLE_CONSTANT(0.001));
     }
-    printf("%d samples, %d alarms\n", TICKS, alarms);
+    khepera_plausible_nominal(&parameters);
+    if (khepera_plausible_configure(&monitor, &parameters, KHEPERA_PLAUSIBLE_SAMPLE_TIME, KHEPERA_PLAUSIBLE_BANDWIDTH,
+            KHEPERA_PLAUSIBLE_TIME_UNIT) != KHEPERA_PLAUSIBLE_OK) {
+        return 2;
+    }
+    khepera_plausible_diagnosis_reset(&found);
+    for (tick = 0; log != NULL || tick < TICKS; ++tick) { /* every sample_time, from a timer */
+        bool alarm;
+
+        read_samples(&samples);
+        if (log != NULL && !read_log(log, names, &samples)) {
+            break;
+        }
+        khepera_plausible_step(&monitor, &samples, &residuals);
+        alarm = khepera_plausible_diagnose(&found, limits, NULL, &residuals);
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
+            tell(&found, tick);
+            alarms += alarmed ? 0 : 1;
+            told = found.fault_class;
+        }
+        alarmed = alarm;
+    }
+    printf("%ld samples, %d alarms\n", tick, alarms);
     return 0;
 }

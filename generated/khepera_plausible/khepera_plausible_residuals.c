@@ -1284,3 +1284,239 @@ void khepera_plausible_step(
     run_r4(monitor, samples, residuals);
     run_r5(monitor, samples, residuals);
 }
+
+const char khepera_plausible_fault_name[KHEPERA_PLAUSIBLE_FAULTS][17] = {
+    "Js[1]", "R[1]", "robot.m[1].ge.N", "robot.m[1].wh.fs", "robot.Fx[1]", "robot.m[1].me.we",
+    "robot.m[1].wh.ws", "fe[1]", "robot.m[1].el.L", "robot.m[1].el.Re", "robot.m[1].el.k",
+    "robot.m[1].me.Je", "robot.U0[1]", "robot.m[1].tau0", "robot.m[1].A", "robot.m[1].me.K",
+    "Js[2]", "R[2]", "robot.m[2].ge.N", "robot.m[2].wh.fs", "robot.Fx[2]", "robot.m[2].me.we",
+    "robot.m[2].wh.ws", "fe[2]", "robot.m[2].el.L", "robot.m[2].el.Re", "robot.m[2].el.k",
+    "robot.m[2].me.Je", "robot.U0[2]", "robot.m[2].tau0", "robot.m[2].A", "robot.m[2].me.K", "RL",
+    "LL", "CL", "robot.Uin", "robot.Us",
+};
+
+const uint16_t khepera_plausible_fault_class[KHEPERA_PLAUSIBLE_FAULTS] = {
+    0u, 0u, 0u, 0u, 0u, 0u, 0u, 1u, 1u, 1u, 1u, 1u, 1u, 2u, 2u, 2u, 3u, 3u, 3u, 3u, 3u, 3u, 3u, 4u,
+    4u, 4u, 4u, 4u, 4u, 5u, 5u, 5u, 6u, 6u, 6u, 7u, 7u,
+};
+
+const char khepera_plausible_residual_name[KHEPERA_PLAUSIBLE_RESIDUALS][3] = {
+    "r1", "r2", "r3", "r4", "r5",
+};
+
+/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
+static const uint8_t signature[KHEPERA_PLAUSIBLE_CLASSES][KHEPERA_PLAUSIBLE_RESIDUALS] = {
+    {3u, 3u, 0u, 0u, 0u},
+    {3u, 0u, 0u, 0u, 0u},
+    {0u, 3u, 0u, 0u, 0u},
+    {0u, 0u, 3u, 3u, 0u},
+    {0u, 0u, 3u, 0u, 0u},
+    {0u, 0u, 0u, 3u, 0u},
+    {0u, 0u, 0u, 0u, 1u},
+    {0u, 0u, 0u, 0u, 3u},
+};
+
+#define NEVER REAL(1e30) /* a limit that nothing exceeds */
+#define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
+#define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
+#define SHARE REAL(0.3333333333333333) /* of the height, that a row adds at most */
+
+/* A sum, kept between zero and twice its height. */
+static real kept(real sum, real height)
+{
+    const real most = height + height;
+
+    return sum < REAL(0.0) ? REAL(0.0) : sum > most ? most : sum;
+}
+
+/* One row more of residual k; whether a sum is too high. off: from the mean, out: beyond bound. */
+static bool add_row(
+    khepera_plausible_diagnosis *d, const khepera_plausible_limit *limit, int k, real off, real out, real bound)
+{
+    const real top = limit->height + OVERSHOOT;
+    const real beyond = out > REAL(0.0) ? out : REAL(0.0);
+    const real loud = beyond * beyond * limit->loud - limit->drift;
+    const real most = SHARE * top;
+
+    d->above[k] = kept(d->above[k] + ((off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->below[k] = kept(d->below[k] + ((-off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->louder[k] = kept(d->louder[k] + (loud > most ? most : loud), top);
+    return d->above[k] > limit->height || d->below[k] > limit->height || d->louder[k] > top;
+}
+
+static bool sums_are_zero(const khepera_plausible_diagnosis *d, int k)
+{
+    const real sum = d->above[k] + d->below[k] + d->louder[k];
+
+    return !(sum > REAL(0.0));
+}
+
+static void forget_sums(khepera_plausible_diagnosis *d, int k)
+{
+    d->above[k] = REAL(0.0);
+    d->below[k] = REAL(0.0);
+    d->louder[k] = REAL(0.0);
+    d->streak[k] = 0u;
+}
+
+/* Residual k in one sample; whether it goes into alarm. */
+static bool watch(
+    khepera_plausible_diagnosis *d, const khepera_plausible_limit *limit, int k, real value, real bound, bool row)
+{
+    const real off = value - limit->mean;
+    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    bool high = false;
+
+    if (row) {
+        high = add_row(d, limit, k, off, out, bound);
+    }
+    if (d->state[k] == KHEPERA_PLAUSIBLE_ALARM) {
+        d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
+            d->quiet = 0u;
+        }
+        return false;
+    }
+    d->state[k] = KHEPERA_PLAUSIBLE_HEALTHY;
+    d->streak[k] = out > limit->level ? d->streak[k] + 1u : 0u;
+    if (d->streak[k] < d->least && !high) {
+        return false;
+    }
+    d->state[k] = KHEPERA_PLAUSIBLE_ALARM;
+    d->since[k] = 0u;
+    return true;
+}
+
+/* What is left of a class of faults. */
+static khepera_plausible_candidate left_of(const khepera_plausible_diagnosis *d, const uint8_t *own)
+{
+    khepera_plausible_candidate found = KHEPERA_PLAUSIBLE_LIKELY;
+    int k;
+
+    for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
+        if (d->state[k] == KHEPERA_PLAUSIBLE_ALARM && own[k] == 0u) {
+            return KHEPERA_PLAUSIBLE_RULED_OUT;
+        }
+        if (d->state[k] == KHEPERA_PLAUSIBLE_HEALTHY && own[k] == 3u) {
+            found = KHEPERA_PLAUSIBLE_SMALL;
+        }
+    }
+    return found;
+}
+
+/* Which classes of faults the residuals leave, and the one if it is one. */
+static void judge(khepera_plausible_diagnosis *d)
+{
+    int likely = 0;
+    int c;
+
+    d->fault_class = KHEPERA_PLAUSIBLE_UNKNOWN;
+    for (c = 0; c < KHEPERA_PLAUSIBLE_CLASSES; ++c) {
+        const khepera_plausible_candidate left = left_of(d, signature[c]);
+
+        d->candidate[c] = (uint8_t)left;
+        if (left == KHEPERA_PLAUSIBLE_LIKELY) {
+            d->fault_class = (int16_t)c;
+            ++likely;
+        }
+    }
+    if (likely != 1 || d->settled < 2u * d->row) {
+        d->fault_class = KHEPERA_PLAUSIBLE_UNKNOWN;
+    }
+}
+
+khepera_plausible_limit khepera_plausible_limit_of(khepera_plausible_real level)
+{
+    khepera_plausible_limit limit;
+
+    limit.mean = REAL(0.0);
+    limit.level = level;
+    limit.unit = REAL(0.0);
+    limit.loud = REAL(0.0);
+    limit.drift = REAL(0.5);
+    limit.height = NEVER;
+    limit.bound = REAL(0.0);
+    return limit;
+}
+
+void khepera_plausible_clear(khepera_plausible_diagnosis *diagnosis)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
+        if (diagnosis->state[k] == KHEPERA_PLAUSIBLE_ALARM) {
+            diagnosis->state[k] = KHEPERA_PLAUSIBLE_HEALTHY;
+        }
+        diagnosis->since[k] = 0u;
+        forget_sums(diagnosis, k);
+    }
+    for (k = 0; k < KHEPERA_PLAUSIBLE_CLASSES; ++k) {
+        diagnosis->candidate[k] = KHEPERA_PLAUSIBLE_RULED_OUT;
+    }
+    diagnosis->fault_class = KHEPERA_PLAUSIBLE_UNKNOWN;
+    diagnosis->quiet = 0u;
+    diagnosis->settled = 0u;
+}
+
+void khepera_plausible_diagnosis_reset(khepera_plausible_diagnosis *diagnosis)
+{
+    int k;
+
+    diagnosis->row = KHEPERA_PLAUSIBLE_ROW;
+    diagnosis->least = 15u;
+    diagnosis->hold = 10u * KHEPERA_PLAUSIBLE_ROW;
+    diagnosis->latch = false;
+    diagnosis->tick = 0u;
+    for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
+        diagnosis->state[k] = KHEPERA_PLAUSIBLE_BLIND;
+    }
+    khepera_plausible_clear(diagnosis);
+}
+
+bool khepera_plausible_diagnose(
+    khepera_plausible_diagnosis *diagnosis,
+    const khepera_plausible_limit *limits,
+    const khepera_plausible_real *bounds,
+    const khepera_plausible_residuals *residuals)
+{
+    khepera_plausible_diagnosis *d = diagnosis;
+    bool alarm = false;
+    bool fresh = false;
+    bool row;
+    int k;
+
+    d->tick += 1u;
+    row = d->tick >= d->row;
+    if (row) {
+        d->tick = 0u;
+    }
+    d->quiet += d->quiet < UINT32_MAX ? 1u : 0u;
+    d->settled += d->settled < UINT32_MAX ? 1u : 0u;
+    for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
+        if (residuals->valid[k]) {
+            const real bound = bounds ? bounds[k] : limits[k].bound;
+
+            fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
+        } else {
+            forget_sums(d, k);
+            if (d->state[k] == KHEPERA_PLAUSIBLE_ALARM) {
+                d->quiet = 0u; /* nobody knows that it is over */
+            } else {
+                d->state[k] = KHEPERA_PLAUSIBLE_BLIND;
+            }
+        }
+        alarm = alarm || d->state[k] == KHEPERA_PLAUSIBLE_ALARM;
+    }
+    if (fresh) {
+        d->quiet = 0u;
+        d->settled = 0u;
+    }
+    if (alarm && !d->latch && d->quiet >= d->hold) {
+        khepera_plausible_clear(d);
+        return false;
+    }
+    if (fresh || (alarm && row)) {
+        judge(d);
+    }
+    return alarm;
+}

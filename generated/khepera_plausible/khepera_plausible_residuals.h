@@ -27,7 +27,7 @@ typedef double khepera_plausible_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_PLAUSIBLE_ABI (1u * 256u + (uint32_t)sizeof(khepera_plausible_real))
+#define KHEPERA_PLAUSIBLE_ABI (2u * 256u + (uint32_t)sizeof(khepera_plausible_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_PLAUSIBLE_DIGEST "3bac45e06397cad7"
 
@@ -374,6 +374,97 @@ void khepera_plausible_exact(
     const khepera_plausible_monitor *monitor,
     const khepera_plausible_derivatives *derivatives,
     khepera_plausible_real residuals[KHEPERA_PLAUSIBLE_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    KHEPERA_PLAUSIBLE_FAULTS = 37,
+    KHEPERA_PLAUSIBLE_CLASSES = 8,
+    /* samples between two rows: three time constants of the filter */
+    KHEPERA_PLAUSIBLE_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char khepera_plausible_fault_name[KHEPERA_PLAUSIBLE_FAULTS][17];
+extern const uint16_t khepera_plausible_fault_class[KHEPERA_PLAUSIBLE_FAULTS];
+extern const char khepera_plausible_residual_name[KHEPERA_PLAUSIBLE_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct khepera_plausible_limit {
+    khepera_plausible_real mean;    /* where it stands */
+    khepera_plausible_real level;   /* how far from there a sample may be, beside its bound */
+    khepera_plausible_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    khepera_plausible_real loud;    /* factor of squares, in the sum of how loud it is */
+    khepera_plausible_real drift;   /* what that sum loses with each row */
+    khepera_plausible_real height;  /* of a sum, that is too much */
+    khepera_plausible_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} khepera_plausible_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum khepera_plausible_state {
+    KHEPERA_PLAUSIBLE_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    KHEPERA_PLAUSIBLE_HEALTHY,
+    KHEPERA_PLAUSIBLE_ALARM
+} khepera_plausible_state;
+
+typedef enum khepera_plausible_candidate {
+    KHEPERA_PLAUSIBLE_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    KHEPERA_PLAUSIBLE_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    KHEPERA_PLAUSIBLE_LIKELY
+} khepera_plausible_candidate;
+
+/* No class, or more than one. */
+#define KHEPERA_PLAUSIBLE_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct khepera_plausible_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: KHEPERA_PLAUSIBLE_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until khepera_plausible_clear */
+
+    /* for you to read */
+    uint8_t state[KHEPERA_PLAUSIBLE_RESIDUALS];   /* a khepera_plausible_state */
+    uint32_t since[KHEPERA_PLAUSIBLE_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[KHEPERA_PLAUSIBLE_CLASSES]; /* a khepera_plausible_candidate */
+    int16_t fault_class; /* the one that is left, or KHEPERA_PLAUSIBLE_UNKNOWN */
+
+    /* its own */
+    khepera_plausible_real above[KHEPERA_PLAUSIBLE_RESIDUALS];
+    khepera_plausible_real below[KHEPERA_PLAUSIBLE_RESIDUALS];
+    khepera_plausible_real louder[KHEPERA_PLAUSIBLE_RESIDUALS];
+    uint32_t streak[KHEPERA_PLAUSIBLE_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} khepera_plausible_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+khepera_plausible_limit khepera_plausible_limit_of(khepera_plausible_real level);
+
+/* Forgets everything. */
+void khepera_plausible_diagnosis_reset(khepera_plausible_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void khepera_plausible_clear(khepera_plausible_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool khepera_plausible_diagnose(
+    khepera_plausible_diagnosis *diagnosis,
+    const khepera_plausible_limit *limits,
+    const khepera_plausible_real *bounds,
+    const khepera_plausible_residuals *residuals);
 
 #ifdef __cplusplus
 }

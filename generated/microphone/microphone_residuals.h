@@ -26,7 +26,7 @@ typedef double microphone_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define MICROPHONE_ABI (1u * 256u + (uint32_t)sizeof(microphone_real))
+#define MICROPHONE_ABI (2u * 256u + (uint32_t)sizeof(microphone_real))
 /* Identifies the model and the options that this code was made from. */
 #define MICROPHONE_DIGEST "4957ee3137d8e5ee"
 
@@ -183,6 +183,97 @@ void microphone_exact(
     const microphone_monitor *monitor,
     const microphone_derivatives *derivatives,
     microphone_real residuals[MICROPHONE_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    MICROPHONE_FAULTS = 9,
+    MICROPHONE_CLASSES = 4,
+    /* samples between two rows: three time constants of the filter */
+    MICROPHONE_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char microphone_fault_name[MICROPHONE_FAULTS][9];
+extern const uint16_t microphone_fault_class[MICROPHONE_FAULTS];
+extern const char microphone_residual_name[MICROPHONE_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct microphone_limit {
+    microphone_real mean;    /* where it stands */
+    microphone_real level;   /* how far from there a sample may be, beside its bound */
+    microphone_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    microphone_real loud;    /* factor of squares, in the sum of how loud it is */
+    microphone_real drift;   /* what that sum loses with each row */
+    microphone_real height;  /* of a sum, that is too much */
+    microphone_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} microphone_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum microphone_state {
+    MICROPHONE_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    MICROPHONE_HEALTHY,
+    MICROPHONE_ALARM
+} microphone_state;
+
+typedef enum microphone_candidate {
+    MICROPHONE_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    MICROPHONE_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    MICROPHONE_LIKELY
+} microphone_candidate;
+
+/* No class, or more than one. */
+#define MICROPHONE_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct microphone_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: MICROPHONE_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until microphone_clear */
+
+    /* for you to read */
+    uint8_t state[MICROPHONE_RESIDUALS];   /* a microphone_state */
+    uint32_t since[MICROPHONE_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[MICROPHONE_CLASSES]; /* a microphone_candidate */
+    int16_t fault_class; /* the one that is left, or MICROPHONE_UNKNOWN */
+
+    /* its own */
+    microphone_real above[MICROPHONE_RESIDUALS];
+    microphone_real below[MICROPHONE_RESIDUALS];
+    microphone_real louder[MICROPHONE_RESIDUALS];
+    uint32_t streak[MICROPHONE_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} microphone_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+microphone_limit microphone_limit_of(microphone_real level);
+
+/* Forgets everything. */
+void microphone_diagnosis_reset(microphone_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void microphone_clear(microphone_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool microphone_diagnose(
+    microphone_diagnosis *diagnosis,
+    const microphone_limit *limits,
+    const microphone_real *bounds,
+    const microphone_residuals *residuals);
 
 #ifdef __cplusplus
 }

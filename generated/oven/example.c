@@ -1,24 +1,19 @@
 /*
  * example.c: Oven watched by its residuals; a program to start from.
  *
- * Put your sensors into read_samples and what to do about a fault into raise_alarm. Compile:
+ * Put your sensors into read_samples and what to do about a fault into tell. Compile and run:
  *     cc -std=c99 -O2 example.c oven_residuals.c -o example
+ *     ./example            a machine at rest
+ *     ./example log.csv    a log: a line with the names of its columns, and one for each sample
  */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "oven_residuals.h"
 
 #define TICKS 5000
-
-/* How far a residual may be from 0 while all is well: measure this on your healthy machine. */
-static const oven_real threshold[OVEN_RESIDUALS] = {
-    OVEN_CONSTANT(0.001), /* r1 */
-    OVEN_CONSTANT(0.001), /* r2 */
-};
-
-static const char *const name[OVEN_RESIDUALS] = {
-    "r1", "r2",
-};
+#define LONGEST 65536
 
 /* One sample of every signal, all taken at the same moment. Here: a machine at rest. */
 static void read_samples(oven_samples *samples)
@@ -30,47 +25,149 @@ static void read_samples(oven_samples *samples)
     samples->To = 0;      /* K */
 }
 
-static void raise_alarm(int residual, oven_real value)
+/* The value in a column of the log; all columns are looked for in its first line. */
+static double column(const char *names, const char *values, const char *name)
 {
-    printf("%s = %g: look for a fault that it sees\n", name[residual], (double)value);
+    const size_t length = strlen(name);
+    const char *at = names;
+    const char *value = values;
+
+    while (strncmp(at, name, length) != 0 || strchr(",\r\n", at[length]) == NULL) {
+        at = strchr(at, ',');
+        value = strchr(value, ',');
+        if (at == NULL || value == NULL) {
+            fprintf(stderr, "no value of %s in: %s", name, values);
+            exit(2);
+        }
+        ++at;
+        ++value;
+    }
+    return atof(value);
 }
 
-int main(void)
+/* The names of the columns, behind lines that tell about the log; false where there are none. */
+static bool read_names(FILE *log, char *names)
 {
+    if (log == NULL) {
+        return false;
+    }
+    do {
+        if (fgets(names, LONGEST, log) == NULL) {
+            return false;
+        }
+    } while (names[0] == '#');
+    return true;
+}
+
+/* The next sample of the log; false at its end. */
+static bool read_log(FILE *log, const char *names, oven_samples *samples)
+{
+    static char line[LONGEST];
+
+    if (fgets(line, sizeof line, log) == NULL) {
+        return false;
+    }
+    samples->on = column(names, line, "on") > 0.5;
+    samples->P = (oven_real)column(names, line, "P");
+    samples->Ta = (oven_real)column(names, line, "Ta");
+    samples->Th = (oven_real)column(names, line, "Th");
+    samples->To = (oven_real)column(names, line, "To");
+    return true;
+}
+
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const oven_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < OVEN_RESIDUALS; ++k) {
+        if (found->state[k] == OVEN_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const oven_diagnosis *found, oven_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < OVEN_FAULTS; ++k) {
+        if (found->candidate[oven_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, oven_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
+/* What is wrong now, in words. */
+static void tell(const oven_diagnosis *found, long tick)
+{
+    const bool sure = found->fault_class != OVEN_UNKNOWN;
+    const char *between = ": ";
+    int k;
+
+    printf("sample %ld", tick);
+    for (k = 0; k < OVEN_RESIDUALS; ++k) {
+        if (found->state[k] == OVEN_ALARM) {
+            printf("%s%s", between, oven_residual_name[k]);
+            between = ", ";
+        }
+    }
+    printf(" in alarm");
+    list(found, OVEN_LIKELY, sure ? "; one of " : "; perhaps ");
+    list(found, OVEN_SMALL, "; or, if it is small, ");
+    printf("\n");
+}
+
+int main(int count, char **words)
+{
+    static char names[LONGEST];
+    FILE *log = count > 1 ? fopen(words[1], "r") : NULL;
     oven_parameters parameters;
     oven_monitor monitor;
-    oven_status status;
+    oven_diagnosis found;
     oven_samples samples;
     oven_residuals residuals;
+    oven_limit limits[OVEN_RESIDUALS];
+    int told = OVEN_UNKNOWN;
+    bool alarmed = false;
     int alarms = 0;
-    int tick;
-    int k;
+    long tick;
 
     if (oven_abi() != OVEN_ABI) {
         return 2; /* the library was compiled from another version, or with another real */
     }
-    oven_nominal(&parameters);
-    status = oven_configure(
-        &monitor,
-        &parameters,
-        OVEN_SAMPLE_TIME,
-        OVEN_BANDWIDTH,
-        OVEN_TIME_UNIT);
-    if (status != OVEN_OK) {
+    if (count > 1 && !read_names(log, names)) {
         return 2;
     }
-    for (tick = 0; tick < TICKS; ++tick) { /* every sample_time, from a timer */
-        read_samples(&samples);
-        oven_step(&monitor, &samples, &residuals);
-        for (k = 0; k < OVEN_RESIDUALS; ++k) {
-            const oven_real r = residuals.value[k];
-
-            if (residuals.valid[k] && (r > threshold[k] || r < -threshold[k])) {
-                raise_alarm(k, r);
-                ++alarms;
-            }
-        }
+    for (tick = 0; tick < OVEN_RESIDUALS; ++tick) {
+        /* how far it may be from 0: measure that, or compile with a tuning, which knows more */
+        limits[tick] = oven_limit_of(OVEN_CONSTANT(0.001));
     }
-    printf("%d samples, %d alarms\n", TICKS, alarms);
+    oven_nominal(&parameters);
+    if (oven_configure(&monitor, &parameters, OVEN_SAMPLE_TIME, OVEN_BANDWIDTH,
+            OVEN_TIME_UNIT) != OVEN_OK) {
+        return 2;
+    }
+    oven_diagnosis_reset(&found);
+    for (tick = 0; log != NULL || tick < TICKS; ++tick) { /* every sample_time, from a timer */
+        bool alarm;
+
+        read_samples(&samples);
+        if (log != NULL && !read_log(log, names, &samples)) {
+            break;
+        }
+        oven_step(&monitor, &samples, &residuals);
+        alarm = oven_diagnose(&found, limits, NULL, &residuals);
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
+            tell(&found, tick);
+            alarms += alarmed ? 0 : 1;
+            told = found.fault_class;
+        }
+        alarmed = alarm;
+    }
+    printf("%ld samples, %d alarms\n", tick, alarms);
     return 0;
 }

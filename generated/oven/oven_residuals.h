@@ -26,7 +26,7 @@ typedef double oven_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define OVEN_ABI (1u * 256u + (uint32_t)sizeof(oven_real))
+#define OVEN_ABI (2u * 256u + (uint32_t)sizeof(oven_real))
 /* Identifies the model and the options that this code was made from. */
 #define OVEN_DIGEST "86e8b5fcee3e06c5"
 
@@ -174,6 +174,97 @@ void oven_exact(
     const oven_monitor *monitor,
     const oven_derivatives *derivatives,
     oven_real residuals[OVEN_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    OVEN_FAULTS = 8,
+    OVEN_CLASSES = 3,
+    /* samples between two rows: three time constants of the filter */
+    OVEN_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char oven_fault_name[OVEN_FAULTS][3];
+extern const uint16_t oven_fault_class[OVEN_FAULTS];
+extern const char oven_residual_name[OVEN_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct oven_limit {
+    oven_real mean;    /* where it stands */
+    oven_real level;   /* how far from there a sample may be, beside its bound */
+    oven_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    oven_real loud;    /* factor of squares, in the sum of how loud it is */
+    oven_real drift;   /* what that sum loses with each row */
+    oven_real height;  /* of a sum, that is too much */
+    oven_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} oven_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum oven_state {
+    OVEN_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    OVEN_HEALTHY,
+    OVEN_ALARM
+} oven_state;
+
+typedef enum oven_candidate {
+    OVEN_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    OVEN_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    OVEN_LIKELY
+} oven_candidate;
+
+/* No class, or more than one. */
+#define OVEN_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct oven_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: OVEN_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until oven_clear */
+
+    /* for you to read */
+    uint8_t state[OVEN_RESIDUALS];   /* a oven_state */
+    uint32_t since[OVEN_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[OVEN_CLASSES]; /* a oven_candidate */
+    int16_t fault_class; /* the one that is left, or OVEN_UNKNOWN */
+
+    /* its own */
+    oven_real above[OVEN_RESIDUALS];
+    oven_real below[OVEN_RESIDUALS];
+    oven_real louder[OVEN_RESIDUALS];
+    uint32_t streak[OVEN_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} oven_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+oven_limit oven_limit_of(oven_real level);
+
+/* Forgets everything. */
+void oven_diagnosis_reset(oven_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void oven_clear(oven_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool oven_diagnose(
+    oven_diagnosis *diagnosis,
+    const oven_limit *limits,
+    const oven_real *bounds,
+    const oven_residuals *residuals);
 
 #ifdef __cplusplus
 }

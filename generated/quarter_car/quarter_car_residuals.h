@@ -26,7 +26,7 @@ typedef double quarter_car_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define QUARTER_CAR_ABI (1u * 256u + (uint32_t)sizeof(quarter_car_real))
+#define QUARTER_CAR_ABI (2u * 256u + (uint32_t)sizeof(quarter_car_real))
 /* Identifies the model and the options that this code was made from. */
 #define QUARTER_CAR_DIGEST "f0b88b0be7f76f8a"
 
@@ -168,6 +168,97 @@ void quarter_car_exact(
     const quarter_car_monitor *monitor,
     const quarter_car_derivatives *derivatives,
     quarter_car_real residuals[QUARTER_CAR_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    QUARTER_CAR_FAULTS = 6,
+    QUARTER_CAR_CLASSES = 2,
+    /* samples between two rows: three time constants of the filter */
+    QUARTER_CAR_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char quarter_car_fault_name[QUARTER_CAR_FAULTS][7];
+extern const uint16_t quarter_car_fault_class[QUARTER_CAR_FAULTS];
+extern const char quarter_car_residual_name[QUARTER_CAR_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct quarter_car_limit {
+    quarter_car_real mean;    /* where it stands */
+    quarter_car_real level;   /* how far from there a sample may be, beside its bound */
+    quarter_car_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    quarter_car_real loud;    /* factor of squares, in the sum of how loud it is */
+    quarter_car_real drift;   /* what that sum loses with each row */
+    quarter_car_real height;  /* of a sum, that is too much */
+    quarter_car_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} quarter_car_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum quarter_car_state {
+    QUARTER_CAR_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    QUARTER_CAR_HEALTHY,
+    QUARTER_CAR_ALARM
+} quarter_car_state;
+
+typedef enum quarter_car_candidate {
+    QUARTER_CAR_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    QUARTER_CAR_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    QUARTER_CAR_LIKELY
+} quarter_car_candidate;
+
+/* No class, or more than one. */
+#define QUARTER_CAR_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct quarter_car_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: QUARTER_CAR_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until quarter_car_clear */
+
+    /* for you to read */
+    uint8_t state[QUARTER_CAR_RESIDUALS];   /* a quarter_car_state */
+    uint32_t since[QUARTER_CAR_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[QUARTER_CAR_CLASSES]; /* a quarter_car_candidate */
+    int16_t fault_class; /* the one that is left, or QUARTER_CAR_UNKNOWN */
+
+    /* its own */
+    quarter_car_real above[QUARTER_CAR_RESIDUALS];
+    quarter_car_real below[QUARTER_CAR_RESIDUALS];
+    quarter_car_real louder[QUARTER_CAR_RESIDUALS];
+    uint32_t streak[QUARTER_CAR_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} quarter_car_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+quarter_car_limit quarter_car_limit_of(quarter_car_real level);
+
+/* Forgets everything. */
+void quarter_car_diagnosis_reset(quarter_car_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void quarter_car_clear(quarter_car_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool quarter_car_diagnose(
+    quarter_car_diagnosis *diagnosis,
+    const quarter_car_limit *limits,
+    const quarter_car_real *bounds,
+    const quarter_car_residuals *residuals);
 
 #ifdef __cplusplus
 }

@@ -26,7 +26,7 @@ typedef double rc_loop_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define RC_LOOP_ABI (1u * 256u + (uint32_t)sizeof(rc_loop_real))
+#define RC_LOOP_ABI (2u * 256u + (uint32_t)sizeof(rc_loop_real))
 /* Identifies the model and the options that this code was made from. */
 #define RC_LOOP_DIGEST "b901520b7cc50567"
 
@@ -175,6 +175,97 @@ void rc_loop_exact(
     const rc_loop_monitor *monitor,
     const rc_loop_derivatives *derivatives,
     rc_loop_real residuals[RC_LOOP_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    RC_LOOP_FAULTS = 9,
+    RC_LOOP_CLASSES = 3,
+    /* samples between two rows: three time constants of the filter */
+    RC_LOOP_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char rc_loop_fault_name[RC_LOOP_FAULTS][4];
+extern const uint16_t rc_loop_fault_class[RC_LOOP_FAULTS];
+extern const char rc_loop_residual_name[RC_LOOP_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct rc_loop_limit {
+    rc_loop_real mean;    /* where it stands */
+    rc_loop_real level;   /* how far from there a sample may be, beside its bound */
+    rc_loop_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    rc_loop_real loud;    /* factor of squares, in the sum of how loud it is */
+    rc_loop_real drift;   /* what that sum loses with each row */
+    rc_loop_real height;  /* of a sum, that is too much */
+    rc_loop_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} rc_loop_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum rc_loop_state {
+    RC_LOOP_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    RC_LOOP_HEALTHY,
+    RC_LOOP_ALARM
+} rc_loop_state;
+
+typedef enum rc_loop_candidate {
+    RC_LOOP_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    RC_LOOP_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    RC_LOOP_LIKELY
+} rc_loop_candidate;
+
+/* No class, or more than one. */
+#define RC_LOOP_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct rc_loop_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: RC_LOOP_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until rc_loop_clear */
+
+    /* for you to read */
+    uint8_t state[RC_LOOP_RESIDUALS];   /* a rc_loop_state */
+    uint32_t since[RC_LOOP_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[RC_LOOP_CLASSES]; /* a rc_loop_candidate */
+    int16_t fault_class; /* the one that is left, or RC_LOOP_UNKNOWN */
+
+    /* its own */
+    rc_loop_real above[RC_LOOP_RESIDUALS];
+    rc_loop_real below[RC_LOOP_RESIDUALS];
+    rc_loop_real louder[RC_LOOP_RESIDUALS];
+    uint32_t streak[RC_LOOP_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} rc_loop_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+rc_loop_limit rc_loop_limit_of(rc_loop_real level);
+
+/* Forgets everything. */
+void rc_loop_diagnosis_reset(rc_loop_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void rc_loop_clear(rc_loop_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool rc_loop_diagnose(
+    rc_loop_diagnosis *diagnosis,
+    const rc_loop_limit *limits,
+    const rc_loop_real *bounds,
+    const rc_loop_residuals *residuals);
 
 #ifdef __cplusplus
 }

@@ -26,7 +26,7 @@ typedef double rigid_gear_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define RIGID_GEAR_ABI (1u * 256u + (uint32_t)sizeof(rigid_gear_real))
+#define RIGID_GEAR_ABI (2u * 256u + (uint32_t)sizeof(rigid_gear_real))
 /* Identifies the model and the options that this code was made from. */
 #define RIGID_GEAR_DIGEST "7e7c182572467cd5"
 
@@ -166,6 +166,97 @@ void rigid_gear_exact(
     const rigid_gear_monitor *monitor,
     const rigid_gear_derivatives *derivatives,
     rigid_gear_real residuals[RIGID_GEAR_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    RIGID_GEAR_FAULTS = 8,
+    RIGID_GEAR_CLASSES = 2,
+    /* samples between two rows: three time constants of the filter */
+    RIGID_GEAR_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char rigid_gear_fault_name[RIGID_GEAR_FAULTS][3];
+extern const uint16_t rigid_gear_fault_class[RIGID_GEAR_FAULTS];
+extern const char rigid_gear_residual_name[RIGID_GEAR_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct rigid_gear_limit {
+    rigid_gear_real mean;    /* where it stands */
+    rigid_gear_real level;   /* how far from there a sample may be, beside its bound */
+    rigid_gear_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    rigid_gear_real loud;    /* factor of squares, in the sum of how loud it is */
+    rigid_gear_real drift;   /* what that sum loses with each row */
+    rigid_gear_real height;  /* of a sum, that is too much */
+    rigid_gear_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} rigid_gear_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum rigid_gear_state {
+    RIGID_GEAR_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    RIGID_GEAR_HEALTHY,
+    RIGID_GEAR_ALARM
+} rigid_gear_state;
+
+typedef enum rigid_gear_candidate {
+    RIGID_GEAR_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    RIGID_GEAR_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    RIGID_GEAR_LIKELY
+} rigid_gear_candidate;
+
+/* No class, or more than one. */
+#define RIGID_GEAR_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct rigid_gear_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: RIGID_GEAR_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until rigid_gear_clear */
+
+    /* for you to read */
+    uint8_t state[RIGID_GEAR_RESIDUALS];   /* a rigid_gear_state */
+    uint32_t since[RIGID_GEAR_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[RIGID_GEAR_CLASSES]; /* a rigid_gear_candidate */
+    int16_t fault_class; /* the one that is left, or RIGID_GEAR_UNKNOWN */
+
+    /* its own */
+    rigid_gear_real above[RIGID_GEAR_RESIDUALS];
+    rigid_gear_real below[RIGID_GEAR_RESIDUALS];
+    rigid_gear_real louder[RIGID_GEAR_RESIDUALS];
+    uint32_t streak[RIGID_GEAR_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} rigid_gear_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+rigid_gear_limit rigid_gear_limit_of(rigid_gear_real level);
+
+/* Forgets everything. */
+void rigid_gear_diagnosis_reset(rigid_gear_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void rigid_gear_clear(rigid_gear_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool rigid_gear_diagnose(
+    rigid_gear_diagnosis *diagnosis,
+    const rigid_gear_limit *limits,
+    const rigid_gear_real *bounds,
+    const rigid_gear_residuals *residuals);
 
 #ifdef __cplusplus
 }

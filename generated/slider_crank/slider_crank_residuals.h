@@ -27,7 +27,7 @@ typedef double slider_crank_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define SLIDER_CRANK_ABI (1u * 256u + (uint32_t)sizeof(slider_crank_real))
+#define SLIDER_CRANK_ABI (2u * 256u + (uint32_t)sizeof(slider_crank_real))
 /* Identifies the model and the options that this code was made from. */
 #define SLIDER_CRANK_DIGEST "327ab99a17cc6685"
 
@@ -184,6 +184,97 @@ void slider_crank_exact(
     const slider_crank_monitor *monitor,
     const slider_crank_derivatives *derivatives,
     slider_crank_real residuals[SLIDER_CRANK_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    SLIDER_CRANK_FAULTS = 9,
+    SLIDER_CRANK_CLASSES = 1,
+    /* samples between two rows: three time constants of the filter */
+    SLIDER_CRANK_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char slider_crank_fault_name[SLIDER_CRANK_FAULTS][6];
+extern const uint16_t slider_crank_fault_class[SLIDER_CRANK_FAULTS];
+extern const char slider_crank_residual_name[SLIDER_CRANK_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct slider_crank_limit {
+    slider_crank_real mean;    /* where it stands */
+    slider_crank_real level;   /* how far from there a sample may be, beside its bound */
+    slider_crank_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    slider_crank_real loud;    /* factor of squares, in the sum of how loud it is */
+    slider_crank_real drift;   /* what that sum loses with each row */
+    slider_crank_real height;  /* of a sum, that is too much */
+    slider_crank_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} slider_crank_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum slider_crank_state {
+    SLIDER_CRANK_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    SLIDER_CRANK_HEALTHY,
+    SLIDER_CRANK_ALARM
+} slider_crank_state;
+
+typedef enum slider_crank_candidate {
+    SLIDER_CRANK_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    SLIDER_CRANK_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    SLIDER_CRANK_LIKELY
+} slider_crank_candidate;
+
+/* No class, or more than one. */
+#define SLIDER_CRANK_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct slider_crank_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: SLIDER_CRANK_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until slider_crank_clear */
+
+    /* for you to read */
+    uint8_t state[SLIDER_CRANK_RESIDUALS];   /* a slider_crank_state */
+    uint32_t since[SLIDER_CRANK_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[SLIDER_CRANK_CLASSES]; /* a slider_crank_candidate */
+    int16_t fault_class; /* the one that is left, or SLIDER_CRANK_UNKNOWN */
+
+    /* its own */
+    slider_crank_real above[SLIDER_CRANK_RESIDUALS];
+    slider_crank_real below[SLIDER_CRANK_RESIDUALS];
+    slider_crank_real louder[SLIDER_CRANK_RESIDUALS];
+    uint32_t streak[SLIDER_CRANK_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} slider_crank_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+slider_crank_limit slider_crank_limit_of(slider_crank_real level);
+
+/* Forgets everything. */
+void slider_crank_diagnosis_reset(slider_crank_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void slider_crank_clear(slider_crank_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool slider_crank_diagnose(
+    slider_crank_diagnosis *diagnosis,
+    const slider_crank_limit *limits,
+    const slider_crank_real *bounds,
+    const slider_crank_residuals *residuals);
 
 #ifdef __cplusplus
 }

@@ -1,19 +1,20 @@
 """TwoTanks watched by its residuals; a program to start from.
 
-Put your sensors into read_samples and what to do about a fault into raise_alarm.
+Put your sensors into read_samples and what to do about a fault into tell. Run it without an
+argument for a machine at rest, or with a log: a CSV file with the names of its columns.
 """
 
 from __future__ import annotations
 
+import csv
+import sys
+from collections.abc import Iterator
+
 import two_tanks_residuals as m
 
 TICKS = 1000
-
-#: How far a residual may be from 0 while all is well: measure this on your healthy machine.
-THRESHOLD = {
-    "r1": 0.001,
-    "r2": 0.001,
-}
+#: How far a residual may be from 0: measure that, or compile with a tuning, which knows more.
+LIMITS = [m.Limit(0.0, 0.001)] * 2
 
 
 def read_samples() -> m.Samples:
@@ -25,23 +26,44 @@ def read_samples() -> m.Samples:
     )
 
 
-def raise_alarm(residual: str, value: float) -> None:
-    """Say that something is wrong."""
-    print(f"{residual} = {value:g}: look for a fault that it sees")
+def read_log(path: str) -> Iterator[m.Samples]:
+    """The samples of a log."""
+    with open(path, newline="") as log:
+        for row in csv.DictReader(line for line in log if not line.startswith("#")):
+            yield m.Samples(
+                Q=float(row["Q"]),
+                p1=float(row["p1"]),
+                p2=float(row["p2"]),
+            )
+
+
+def tell(found: m.Diagnosis, tick: int) -> None:
+    """What is wrong now, in words."""
+    fired = [n for n, state in zip(m.RESIDUALS, found.state, strict=True) if state == m.ALARM]
+    text = f"sample {tick}: {', '.join(fired)} in alarm"
+    likely = "perhaps" if found.fault_class is None else "one of"
+    for left, words in ((m.LIKELY, likely), (m.SMALL, "or, if it is small,")):
+        own = [f for c, what in zip(m.CLASSES, found.candidate, strict=True) if what == left
+               for f in c]  # fmt: skip
+        text += f"; {words} {', '.join(own)}" if own else ""
+    print(text)
 
 
 def main() -> None:
     """Watch the machine for a while."""
     monitor = m.Monitor()
-    alarms = 0
-    for _ in range(TICKS):  # every SAMPLE_TIME, from a timer
-        residuals = monitor.step(read_samples())
-        for name, threshold in THRESHOLD.items():
-            value: float = getattr(residuals, name)
-            if name in residuals.valid and abs(value) > threshold:
-                raise_alarm(name, value)
-                alarms += 1
-    print(f"{TICKS} samples, {alarms} alarms")
+    found = m.Diagnosis(LIMITS)
+    log = read_log(sys.argv[1]) if len(sys.argv) > 1 else (read_samples() for _ in range(TICKS))
+    alarmed, told, alarms, tick = False, None, 0, -1
+    for tick, samples in enumerate(log):  # every SAMPLE_TIME, from a timer
+        alarm = found.update(monitor.step(samples))
+        news = (m.ALARM, 0) in zip(found.state, found.since, strict=True)
+        if alarm and (news or found.fault_class != told):
+            tell(found, tick)
+            alarms += not alarmed
+            told = found.fault_class
+        alarmed = alarm
+    print(f"{tick + 1} samples, {alarms} alarms")
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ typedef double two_tanks_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define TWO_TANKS_ABI (1u * 256u + (uint32_t)sizeof(two_tanks_real))
+#define TWO_TANKS_ABI (2u * 256u + (uint32_t)sizeof(two_tanks_real))
 /* Identifies the model and the options that this code was made from. */
 #define TWO_TANKS_DIGEST "da4edbd4069a5aa7"
 
@@ -169,6 +169,97 @@ void two_tanks_exact(
     const two_tanks_monitor *monitor,
     const two_tanks_derivatives *derivatives,
     two_tanks_real residuals[TWO_TANKS_RESIDUALS]);
+
+/*
+ * What is wrong: diagnose takes the residuals of step and says which of them are out, and which
+ * faults that leaves.
+ */
+
+/* The faults by number, and their classes: no residual tells those of one class apart. */
+enum {
+    TWO_TANKS_FAULTS = 8,
+    TWO_TANKS_CLASSES = 3,
+    /* samples between two rows: three time constants of the filter */
+    TWO_TANKS_ROW = 150
+};
+
+/* Names of the faults, the class of each, and names of the residuals. */
+extern const char two_tanks_fault_name[TWO_TANKS_FAULTS][5];
+extern const uint16_t two_tanks_fault_class[TWO_TANKS_FAULTS];
+extern const char two_tanks_residual_name[TWO_TANKS_RESIDUALS][3];
+
+/* What is known of a residual while all is well: bondgraph tune finds it. */
+typedef struct two_tanks_limit {
+    two_tanks_real mean;    /* where it stands */
+    two_tanks_real level;   /* how far from there a sample may be, beside its bound */
+    two_tanks_real unit;    /* one over the deviation of noise that adds up, 0: no sums */
+    two_tanks_real loud;    /* factor of squares, in the sum of how loud it is */
+    two_tanks_real drift;   /* what that sum loses with each row */
+    two_tanks_real height;  /* of a sum, that is too much */
+    two_tanks_real bound;   /* how far off it may be by tolerances, where nobody tells it */
+} two_tanks_limit;
+
+/* How a residual is, and what is left of a class of faults. */
+typedef enum two_tanks_state {
+    TWO_TANKS_BLIND = 0,  /* it has no value: its filter settles, or samples are bad */
+    TWO_TANKS_HEALTHY,
+    TWO_TANKS_ALARM
+} two_tanks_state;
+
+typedef enum two_tanks_candidate {
+    TWO_TANKS_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
+    TWO_TANKS_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    TWO_TANKS_LIKELY
+} two_tanks_candidate;
+
+/* No class, or more than one. */
+#define TWO_TANKS_UNKNOWN (-1)
+
+/* What diagnose remembers. You own it; reset fills it. */
+typedef struct two_tanks_diagnosis {
+    /* for you to set after reset, if you want others */
+    uint32_t row;    /* samples between two rows: TWO_TANKS_ROW */
+    uint32_t least;  /* samples in a row that are out before a residual is in alarm */
+    uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    bool latch;      /* whether an alarm stays until two_tanks_clear */
+
+    /* for you to read */
+    uint8_t state[TWO_TANKS_RESIDUALS];   /* a two_tanks_state */
+    uint32_t since[TWO_TANKS_RESIDUALS];  /* samples since it went into alarm */
+    uint8_t candidate[TWO_TANKS_CLASSES]; /* a two_tanks_candidate */
+    int16_t fault_class; /* the one that is left, or TWO_TANKS_UNKNOWN */
+
+    /* its own */
+    two_tanks_real above[TWO_TANKS_RESIDUALS];
+    two_tanks_real below[TWO_TANKS_RESIDUALS];
+    two_tanks_real louder[TWO_TANKS_RESIDUALS];
+    uint32_t streak[TWO_TANKS_RESIDUALS];
+    uint32_t quiet;
+    uint32_t settled;
+    uint32_t tick;
+} two_tanks_diagnosis;
+
+/* A limit of samples alone: how far a residual may be from 0. No sums. */
+two_tanks_limit two_tanks_limit_of(two_tanks_real level);
+
+/* Forgets everything. */
+void two_tanks_diagnosis_reset(two_tanks_diagnosis *diagnosis);
+
+/* Ends an alarm. */
+void two_tanks_clear(two_tanks_diagnosis *diagnosis);
+
+/*
+ * Takes the residuals of one sample; says whether any is in alarm.
+ *
+ * limits  one for each residual
+ * bounds  how far each residual may be off now because parameters are within their tolerances
+ *         (adaptive thresholds), or NULL for the bounds of the limits, which do not move
+ */
+bool two_tanks_diagnose(
+    two_tanks_diagnosis *diagnosis,
+    const two_tanks_limit *limits,
+    const two_tanks_real *bounds,
+    const two_tanks_residuals *residuals);
 
 #ifdef __cplusplus
 }

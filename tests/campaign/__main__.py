@@ -3,6 +3,7 @@
     python -m tests.campaign healthy --hours 10 [--write]
     python -m tests.campaign faulty --seeds 20 [--times 1.5] [--write]
     python -m tests.campaign double --seeds 5 [--write]
+    python -m tests.campaign board --seeds 2 [--write]
 
 Healthy machines are watched for ten minutes each, without what the watch learns from first. Faults
 are of three times the smallest size that `tune` tells of other machines; the table of these sizes
@@ -27,6 +28,7 @@ from tests.campaign.calibration import Stated, draw, stated, table
 from tests.campaign.double import double
 from tests.campaign.faults import TIMES, Kind, kinds, lasting, span
 from tests.campaign.machines import MACHINES, Machine, compiled, run
+from tests.campaign.on_board import on_board
 from tests.campaign.watched import watched
 from tests.measured import ROOT, write
 
@@ -143,7 +145,7 @@ def faulty(
 def main(words: Sequence[str]) -> int:
     """The command."""
     parser = argparse.ArgumentParser(prog="python -m tests.campaign")
-    parser.add_argument("what", choices=("healthy", "faulty", "double", "sizes"))
+    parser.add_argument("what", choices=("healthy", "faulty", "double", "board", "sizes"))
     parser.add_argument("--hours", type=float, default=10.0, help="of each healthy machine")
     parser.add_argument("--seeds", type=int, default=20, help="of each fault")
     parser.add_argument("--times", type=float, default=TIMES, help="smallest size of faults")
@@ -164,6 +166,9 @@ def main(words: Sequence[str]) -> int:
         own = [f"--hours {args.hours:g}", *own]
     elif args.what == "double":
         text = double(chosen, args.seeds, args.start, args.jobs)
+        own = [f"--seeds {args.seeds}", *own]
+    elif args.what == "board":
+        text = on_board(chosen, args.seeds, args.start, args.jobs)
         own = [f"--seeds {args.seeds}", *own]
     else:
         text, said = faulty(chosen, args.seeds, args.start, args.jobs, args.times)

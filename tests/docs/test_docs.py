@@ -50,6 +50,25 @@ def test_paths_that_are_named_exist(page: Path) -> None:
         assert (ROOT / path).exists(), f"{page.name}: {path}"
 
 
+def test_the_way_to_the_controller(tmp_path: Path) -> None:
+    """The commands of firmware.md, in order, with what they print."""
+    (tmp_path / "models").symlink_to(ROOT / "models")
+    env = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+    printed, told = "", []
+    for language, text in _FENCE.findall((ROOT / "docs" / "firmware.md").read_text()):
+        if language == "toml":
+            (tmp_path / "healthy.toml").write_text(text)
+        elif language == "sh":
+            done = subprocess.run(["sh", "-e", "-c", text], cwd=tmp_path, env=env, timeout=120,
+                                  capture_output=True, text=True)  # fmt: skip
+            assert done.returncode == 0, done.stderr
+            printed = done.stdout
+        else:
+            told.append(text)
+            assert printed.endswith(text)
+    assert len(told) == 2
+
+
 def complete_models() -> list[tuple[str, str]]:
     """Every block of a page that is a whole .bg file."""
     found = []

@@ -27,7 +27,8 @@ ROWS = {
     "TUNING_BYTES": "bytes of a tuning", "NESTED": "tables or arrays",
     "SCENARIO_FAULTS": "faults of a scenario", "SCENARIO_CONTROLLERS": "controllers of",
     "FAULT_TIMES": "times that a fault", "RUN_VALUES": "numbers of a simulated log",
-    "COLUMNS": "columns of a log", "LINE_BYTES": "bytes of a line", "PAGES": "pages at once",
+    "COLUMNS": "columns of a log", "RATE": "samples a second, rad/s of a filter",
+    "LINE_BYTES": "bytes of a line", "PAGES": "pages at once",
     "CONNECTIONS": "connections at once", "WISH_BYTES": "bytes of a wish",
     "WISHES_A_SECOND": "wishes a second", "WISHES": "wishes of all pages",
     "INJECTED": "faults of the virtual machine",
@@ -127,6 +128,21 @@ def _(folder: Path) -> list[str]:
 @_beyond("findings", r"unknown-name.*\d+ more are not shown")
 def _(folder: Path) -> list[str]:
     return _checked(folder, f"bg 1\nmodel M {{\n{_nodes(300)}}}\n")
+
+
+@_beyond("samples a second", r"rate must be from 1e-09 to 1e\+09, not 1e\+12")
+def _(folder: Path) -> list[str]:
+    rows = "".join(f"{k}e-12,1,1,0,0,0,0\n" for k in range(50))
+    return _watched(folder, f"{HEADER}\n{rows}")
+
+
+@_beyond("rad/s of a filter", r"bandwidth.*a number from 1e-09 to 1e\+09")
+def _(folder: Path) -> list[str]:
+    (folder / "t.json").write_text(
+        '{"bondgraph tuning": 1, "model": "a", "rate": 200, "bandwidth": 1e-320, '
+        '"false_alarms": 1, "seconds": 1, "limits": {}}'
+    )
+    return _watched(folder, f"{HEADER}\n0,1,1,0,0,0,0\n", "--tuning", "t.json")
 
 
 @_beyond("numbers of a table", r"wrong-table.*200,000 numbers at most")

@@ -1,110 +1,106 @@
 """Texts that reach what no text before has reached: python -m tests.fuzz.guided [KIND ...].
 
-Each text is made of one that was kept. It is kept itself if the answer to it is a new one, or, of
-a sample of texts whose lines are traced, if it reaches a line of the package that none has reached.
+Each kind is driven by libFuzzer (by way of atheris) in a process of its own, `one_kind`: a text
+is made of one that was kept, and is kept itself if it passes a branch of the package that none had
+passed, or one more often. A process that libFuzzer had to end is begun again with what was kept.
 """
 
 from __future__ import annotations
 
 import argparse
-import random
-import resource
-import signal
+import os
+import re
+import subprocess
 import sys
+import tempfile
 import time
-import traceback
 from collections.abc import Sequence
 from hashlib import sha256
-from multiprocessing import get_context
+from importlib import import_module
+from importlib.util import find_spec
+from itertools import accumulate
+from multiprocessing.pool import ThreadPool
 from pathlib import Path
-from types import FrameType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from tests.fuzz.mutate import ROOT, Mutator, corpus
-from tests.fuzz.run import check
-from tests.fuzz.targets import KINDS, WORDS, Kind
+from tests.fuzz.attempt import Finding, Kind, attempt, smallest
+from tests.fuzz.counts import Counts
+from tests.fuzz.mutate import ROOT
+from tests.fuzz.targets import KINDS
 from tests.measured import write
 
 KEPT = Path(__file__).with_name("corpus")
-_SECONDS = 20.0  # that no text may take
-_MEMORY = 1 << 30  # bytes that all of them together may add
+_BROKE = ROOT / "build" / "fuzz"  # where the texts of findings go
+_SECONDS = 20  # that no text may take
+_MEMORY = 1024  # MB that all of them together may add
+_ENDS = 10  # processes of a kind that libFuzzer had to end, then it is enough
 #: Texts of a whole campaign, by kind; of all others 100 000.
 _COUNTS = {"check": 1_000_000, "compile": 10_000}
-_TRACED = 40  # one text in so many is traced
-_PACKAGE = str(ROOT / "bondgraph")
+_CORPUS = 40_000  # bytes that are kept of a kind
 
 
 class Result(NamedTuple):
-    """Of one run: how many texts, how many answers and lines they reached, what broke."""
+    """Of one kind: how many texts, how many answers and branches they reached, what broke."""
 
     kind: str
     texts: int
     sound: int  # of these, that nothing was wrong with
     answers: int
-    lines: int
+    branches: int
     slowest: float  # s
     memory: float  # MB that were added at most
-    findings: dict[str, tuple[bytes, str]]
+    findings: list[Finding]
     seconds: float
 
 
-class Slow(BaseException):
-    """No answer in time; nothing that catches exceptions catches it."""
+class Run(NamedTuple):
+    """What is asked for: texts of a KIND of a module, by a seed, each within seconds, all of them
+    within so many MB more; whether the corpus is to be made anew from what was found."""
+
+    kind: str
+    count: int
+    seed: int = 1
+    module: str = "tests.fuzz.targets"
+    seconds: int = _SECONDS
+    memory: int = _MEMORY
+    keep: bool = False
 
 
-def _too_slow(*_: object) -> None:
-    raise Slow
+def run(asked: Run) -> Result:
+    """Give so many texts to a kind, in as many processes one after the other as that takes.
+
+    What a process reads again that follows one that was ended counts as texts, too.
+    """
+    start = time.perf_counter()
+    ended: list[Finding] = []
+    branches = 0
+    with tempfile.TemporaryDirectory(prefix="fuzz-") as place:
+        folder = Path(place)
+        for name in ("grown", "seeds"):
+            (folder / name).mkdir()
+        for text in first_texts(asked):
+            (folder / "seeds" / _digest(text)).write_bytes(text)
+        counts = Counts(folder / "counts")
+        while (left := asked.count - counts.read()[0]) > 0 and len(ended) < _ENDS:
+            options = [f"-atheris_runs={left}", f"-seed={asked.seed + len(ended)}",
+                       f"-timeout={asked.seconds}", "grown", "seeds"]  # fmt: skip
+            status, said = _process(asked, folder, options)
+            branches = max([branches, *(int(n) for n in re.findall(r" cov: (\d+) ", said))])
+            if counts.read()[0] < asked.count:
+                ended.append(_end(folder, status, said))
+        found = [*ended, *_broken(folder / "findings")]
+        answers = len((folder / "answers").read_text("utf-8").splitlines())
+        texts, sound, slowest, memory = counts.read()
+        if asked.keep:
+            _keep(asked, folder)
+    taken = time.perf_counter() - start
+    return Result(asked.kind, texts, sound, answers, branches, slowest, memory, found, taken)
 
 
-def changed(rng: random.Random, text: bytes, kept: Sequence[bytes], words: Sequence[str]) -> bytes:
-    """Another text: words of the kind, bytes, lines and parts of others put in or left out."""
-    for _ in range(rng.choice((1, 1, 2, 3, 6))):
-        size = len(text)
-        a = rng.randrange(size + 1)
-        b = min(size, a + rng.choice((0, 1, 1, 2, 4, 16, 100)))
-        match rng.randrange(9):
-            case 0:
-                text = text[:a] + bytes([rng.randrange(256)]) + text[b:]
-            case 1:
-                text = text[:a] + text[b:]
-            case 2:
-                word = rng.choice(words).encode("utf-8", "surrogatepass")
-                text = text[:a] + word + text[b:]
-            case 3:
-                text = text[:b] + text[a:b] * rng.choice((1, 2, 50)) + text[b:]
-            case 4:
-                other = rng.choice(kept)
-                c = rng.randrange(len(other) + 1)
-                text = text[:a] + other[c : c + rng.choice((4, 20, 200))] + text[b:]
-            case 5:
-                lines = text.split(b"\n")
-                lines.insert(rng.randrange(len(lines)), rng.choice(lines))
-                text = b"\n".join(lines)
-            case 6:
-                lines = text.split(b"\n")
-                del lines[rng.randrange(len(lines))]
-                text = b"\n".join(lines)
-            case 7:
-                number = str(rng.choice((0, 1, -1, 2**31, 2**63, 1e308, 1e-320, rng.random())))
-                text = text[:a] + number.encode() + text[b:]
-            case _:
-                text = text[: max(a, 1)]
-    return text[:20_000]
-
-
-class Lines:
-    """The lines of the package that a call reaches."""
-
-    def __init__(self) -> None:
-        self.seen: set[tuple[str, int]] = set()
-
-    def __call__(self, frame: FrameType, event: str, arg: object) -> Any:
-        """See `sys.settrace`."""
-        name = frame.f_code.co_filename
-        if not name.startswith(_PACKAGE):
-            return None
-        self.seen.add((name, frame.f_lineno))
-        return self
+def first_texts(asked: Run) -> list[bytes]:
+    """The seeds of a kind and what earlier runs have kept."""
+    kinds: dict[str, Kind] = import_module(asked.module).KINDS
+    return [*kinds[asked.kind].seeds(), *kept_texts(asked.kind)]
 
 
 def kept_texts(name: str) -> list[bytes]:
@@ -112,122 +108,121 @@ def kept_texts(name: str) -> list[bytes]:
     return [p.read_bytes() for p in sorted((KEPT / name).glob("*"))]
 
 
-def _kind(name: str) -> Kind:
-    if name == "check":
-        return Kind(lambda data: check(data.decode("utf-8", "surrogateescape")),
-                    lambda: [t.encode() for t in corpus()])  # fmt: skip
-    return KINDS[name]
+def _process(asked: Run, folder: Path, options: Sequence[str]) -> tuple[int, str]:
+    """Its exit status and what it said."""
+    words = [asked.module, asked.kind, str(folder), str(asked.memory), *options]
+    words = [str(folder / w) if w in ("grown", "seeds", "merged") else w for w in words]
+    log = folder / "said"
+    with log.open("w") as file:
+        status = subprocess.run(
+            [sys.executable, "-m", "tests.fuzz.one_kind", *words],
+            cwd=ROOT, env=os.environ | {"PYTHONHASHSEED": "0"}, stdout=file, stderr=file,
+        ).returncode  # fmt: skip
+    return status, log.read_text("utf-8", "replace")
 
 
-def run(name: str, count: int, seed: int, keep: int = 0) -> Result:
-    """Give so many texts to a kind; the newest `keep` that were worth it go into the corpus."""
-    kind = _kind(name)
-    rng = random.Random(f"{name} {seed}")
-    grown = Mutator(seed, corpus()) if name in ("check", "compile") else None
-    kept = [*kind.seeds(), *kept_texts(name)]
-    known = len(kept)
-    fresh: list[bytes] = []
-    answers: set[str] = set()
-    sound = 0
-    lines, findings = Lines(), {}
-    slowest, before = 0.0, _resident()
-    start = time.perf_counter()
-    signal.signal(signal.SIGALRM, _too_slow)
-    for k in range(count):
-        if k < known:
-            text = kept[k]
-        elif grown is not None and rng.random() < 0.7:
-            text = grown.text().encode("utf-8", "surrogateescape")
-        else:
-            text = changed(rng, rng.choice(kept), kept, (*kind.words, *WORDS))
-        traced, reached = k % _TRACED == 0, len(lines.seen)
-        begun = time.perf_counter()
-        signal.setitimer(signal.ITIMER_REAL, _SECONDS)
-        try:
-            if traced:
-                sys.settrace(lines)
-            answer = kind.read(text)
-        except (Exception, Slow) as error:
-            sys.settrace(None)
-            frames = traceback.extract_tb(error.__traceback__)
-            frames = [f for f in frames if _PACKAGE in f.filename] or [frames[-1]]
-            place = f"{Path(frames[-1].filename).name}:{frames[-1].name}"
-            answer = f"{type(error).__name__} in {place}"
-            trace = "".join(traceback.format_exception(error, limit=-8))
-            if answer not in findings or len(text) < len(findings[answer][0]):
-                findings[answer] = text, trace
-        finally:
-            sys.settrace(None)
-            signal.setitimer(signal.ITIMER_REAL, 0)
-        slowest = max(slowest, time.perf_counter() - begun)
-        if k >= known and len(text) < 5_000 and (
-            answer not in answers or (traced and len(lines.seen) > reached)
-        ):
-            kept.append(text)
-            fresh.append(text)
-        answers.add(answer)
-        sound += answer.startswith(("sound", "compiled", "samples", "done", "begun"))
-    if keep:
-        folder = KEPT / name
-        folder.mkdir(parents=True, exist_ok=True)
-        for text in fresh[-keep:]:
-            (folder / sha256(text).hexdigest()[:12]).write_bytes(text)
-    taken = time.perf_counter() - start
-    return Result(name, count, sound, len(answers), len(lines.seen), slowest, _resident() - before,
-                  findings, taken)  # fmt: skip
+def _end(folder: Path, status: int, said: str) -> Finding:
+    """Why libFuzzer ended a process, with the text that it left; raises RuntimeError for none."""
+    left = [p for what in ("timeout", "oom", "crash") for p in folder.glob(f"{what}-*")]
+    if not left:
+        raise RuntimeError(f"status {status}, though no text broke it:\n{said[-4000:]}")
+    what, text = left[0].name.split("-")[0], left[0].read_bytes()
+    for path in left:
+        path.unlink()
+    for name in ("grown", "seeds"):  # which the next process reads
+        for path in (folder / name).iterdir():
+            if path.read_bytes() == text:
+                path.unlink()
+    lines = [line for line in said.splitlines() if not line.startswith(("#", "INFO: "))]
+    return Finding(what, "\n".join(lines[-40:]) + "\n", text)
 
 
-def _resident() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+def _broken(folder: Path) -> list[Finding]:
+    """What exceptions were, one of each kind."""
+    return [
+        Finding(p.stem, p.read_text("utf-8"), p.with_suffix("").read_bytes())
+        for p in sorted(folder.glob("*.trace"))
+    ]
 
 
-def told(found: Sequence[Result]) -> str:
+def _keep(asked: Run, folder: Path) -> None:
+    """Make the corpus of the smallest texts that pass all branches; of a few bytes in all."""
+    (folder / "merged").mkdir()
+    options = ["-merge=1", "-use_counters=0", "merged", "grown", "seeds"]
+    status, said = _process(asked, folder, options)
+    if status != 0:
+        raise RuntimeError(f"libFuzzer could not merge:\n{said[-2000:]}")
+    seeds = set(import_module(asked.module).KINDS[asked.kind].seeds())
+    texts = sorted({p.read_bytes() for p in (folder / "merged").iterdir()} - seeds, key=len)
+    kept = KEPT / asked.kind
+    kept.mkdir(parents=True, exist_ok=True)
+    for path in kept.iterdir():
+        path.unlink()
+    for text, size in zip(texts, accumulate(map(len, texts)), strict=True):
+        if size <= _CORPUS:
+            (kept / _digest(text)).write_bytes(text)
+
+
+def _digest(text: bytes) -> str:
+    return sha256(text).hexdigest()[:12]
+
+
+def table(found: Sequence[Result]) -> str:
     """What was found, for a page of the documentation."""
-    rows = ["| kind | texts | sound | answers | lines reached | findings | slowest | memory |",
+    rows = ["| kind | texts | sound | answers | branches | findings | slowest | memory |",
             "|---|---|---|---|---|---|---|---|"]  # fmt: skip
     rows += [
-        f"| {r.kind} | {r.texts:,} | {r.sound:,} | {r.answers:,} | {r.lines:,} | {len(r.findings)}"
-        f" | {r.slowest:.2f} s | {r.memory:.0f} MB |"
+        f"| {r.kind} | {r.texts:,} | {r.sound:,} | {r.answers:,} | {r.branches:,}"
+        f" | {len(r.findings)} | {r.slowest:.2f} s | {r.memory:.0f} MB |"
         for r in found
     ]
     return "\n".join(rows)
 
 
-def _job(job: tuple[str, int, int, int]) -> Result:
-    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY * 4, resource.RLIM_INFINITY))
-    return run(*job)
+def _tell(found: Result) -> None:
+    """Print what a kind came to; texts that broke it are made small and written down."""
+    print(f"{found.kind}: {found.texts} texts, {found.sound} sound, {found.answers} answers,"
+          f" {found.branches} branches, {len(found.findings)} findings, slowest"
+          f" {found.slowest:.2f} s, {found.memory:.0f} MB more, {found.seconds:.0f} s",
+          flush=True)  # fmt: skip
+    for what, trace, text in found.findings:
+
+        def fails(shorter: bytes, what: str = what) -> bool:
+            return attempt(KINDS[found.kind].read, shorter)[0] == what
+
+        small = smallest(text, fails) if fails(text) else text
+        _BROKE.mkdir(parents=True, exist_ok=True)
+        path = _BROKE / f"{found.kind}-{_digest(small)}"
+        path.write_bytes(small)
+        print(f"=== {what}, in {path.relative_to(ROOT)}\n{trace}--- for\n{small[:1500]!r}")
 
 
 def main() -> int:
     """Run some kinds and tell; the exit status is 1 where a text broke one."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("kinds", nargs="*", metavar="KIND", help="check, " + ", ".join(KINDS))
+    parser.add_argument("kinds", nargs="*", metavar="KIND", help=", ".join(KINDS))
     parser.add_argument("--count", type=int, help="of each kind (default: those of a campaign)")
     parser.add_argument("--share", type=float, default=1.0, help="of a campaign")
-    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--jobs", type=int, default=1, help="kinds at a time")
     parser.add_argument("--write", action="store_true", help="put the table into docs/trust.md")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--keep", type=int, default=0, help="so many texts for the corpus")
+    parser.add_argument("--keep", action="store_true", help="make the corpus anew from all of it")
     args = parser.parse_args()
-    names = args.kinds or ["check", *KINDS]
-    counts = {n: args.count or round(_COUNTS.get(n, 100_000) * args.share) for n in names}
-    bad = False
+    if find_spec("atheris") is None:
+        parser.error("atheris is not installed: it has wheels for Python 3.11 to 3.13 on Linux")
+    asked = [
+        Run(n, args.count or round(_COUNTS.get(n, 100_000) * args.share), args.seed, keep=args.keep)
+        for n in args.kinds or KINDS
+    ]
     every = []
-    pool = get_context("spawn").Pool(args.jobs)
-    for found in pool.imap(_job, [(n, counts[n], args.seed, args.keep) for n in names], 1):
-        every.append(found)
-        print(f"{found.kind}: {found.texts} texts, {found.sound} sound, {found.answers} answers,"
-              f" {found.lines} lines reached, {len(found.findings)} findings, slowest"
-              f" {found.slowest:.2f} s, {found.memory:.0f} MB more, {found.seconds:.0f} s",
-              flush=True)  # fmt: skip
-        for what, (text, trace) in found.findings.items():
-            bad = True
-            print(f"=== {what}\n{trace}--- for\n{text[:1500]!r}")
-    pool.close()
+    with ThreadPool(args.jobs) as pool:
+        for found in pool.imap(run, asked, 1):
+            every.append(found)
+            _tell(found)
     if args.write:
         command = f"python -m tests.fuzz.guided --share {args.share:g} --write"
-        write(ROOT / "docs" / "trust.md", command, told(every))
-    return 1 if bad else 0
+        write(ROOT / "docs" / "trust.md", command, table(every))
+    return 1 if any(r.findings for r in every) else 0
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Makes broken models: seeded, from the models at hand, from the grammar, and from noise."""
+"""Makes broken texts: seeded; models from those at hand, from the grammar, and from noise; any
+other text from one that was there, with bytes, words, lines and parts put in or left out."""
 
 from __future__ import annotations
 
@@ -12,10 +13,18 @@ ROOT = Path(__file__).parents[2]
 #: How a text stands for the bytes of a file, even where they are no UTF-8.
 ENCODING, BYTES = "utf-8", "surrogateescape"
 
+LONGEST = 8_000  # bytes or letters of a text: longer ones take long and reach the same
+
 _TOKEN = re.compile(r"\s+|#[^\n]*|\"[^\"\n]*\"|\d+(?:\.\d+)?(?:[eE][+-]?\d+)?|\w+|->|<-|\.\.|\+-|.")
 
+_NUMBER = re.compile(rb"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
+_WORD = re.compile(rb"\w+")
+_NUMBERS = tuple(
+    b"0 1 -1 -0.0 2 0.5 1e3 2147483648 9223372036854775808 1e308 1e-320 1e999 NaN Infinity".split()
+)
+
 #: Words that the language knows, and some that it must not know.
-_WORDS = (
+LANGUAGE = (
     "bg model port in out param const input sensor let fault for if else when unknown bool int "
     "true false and or not counts turn import from 0 1 R C I TF GY Se Sf De Df MSe MTF MGY MR "
     "electrical rotation translation hydraulic thermal thermofluid chemical any e f q p e1 f1 e2 "
@@ -66,11 +75,16 @@ class Mutator:
         if kind < 0.03:
             return self._noise()
         text = self._grown() if kind < 0.35 else self._picked()
-        # half of the texts shall get past the parser
+        return self.changed(text, 60 if kind > 0.99 else None)
+
+    def changed(self, text: str, times: int | None = None) -> str:
+        """Another text, changed so many times, mostly once or twice; half of them still parse."""
         changes = _MUTATIONS if self.random.random() < 0.5 else _GENTLE
-        for _ in range(self.random.choice((0, 1, 1, 1, 2, 2, 3, 5, 8)) if kind < 0.99 else 60):
+        if times is None:
+            times = self.random.choice((0, 1, 1, 1, 2, 2, 3, 5, 8))
+        for _ in range(times):
             text = self.random.choice(changes)(self, text)
-        return text[:20_000]
+        return text[:LONGEST]
 
     def _picked(self) -> str:
         return self.random.choices(self.texts, self.weights)[0]
@@ -78,7 +92,7 @@ class Mutator:
     def _noise(self) -> str:
         size = self.random.randrange(200)
         if self.random.random() < 0.5:
-            return "".join(self.random.choices(_WORDS, k=size))
+            return "".join(self.random.choices(LANGUAGE, k=size))
         raw = bytes(self.random.randrange(256) for _ in range(size))
         return (self.random.choice((b"", b"\xff\xfe", b"bg 1\n")) + raw).decode(ENCODING, BYTES)
 
@@ -88,7 +102,7 @@ class Mutator:
         """Another word of the language, or of the same text, in place of one."""
         words = _TOKEN.findall(text) or [""]
         at = self._solid(words)
-        words[at] = self.random.choice(_WORDS if self.random.random() < 0.5 else words)
+        words[at] = self.random.choice(LANGUAGE if self.random.random() < 0.5 else words)
         return "".join(words)
 
     def rename(self, text: str) -> str:
@@ -110,7 +124,7 @@ class Mutator:
         """A word too many, sometimes very often."""
         words = _TOKEN.findall(text) or [""]
         times = self.random.choice((1,) * 20 + (3, 300))
-        words.insert(self._solid(words), self.random.choice(_WORDS) * times)
+        words.insert(self._solid(words), self.random.choice(LANGUAGE) * times)
         return "".join(words)
 
     def number(self, text: str) -> str:
@@ -273,3 +287,52 @@ _MUTATIONS = (
     Mutator.drop_words, Mutator.add_word, Mutator.number, Mutator.drop_line, Mutator.repeat_line,
     Mutator.join, Mutator.cut, Mutator.character, Mutator.statement,
 )  # fmt: skip
+
+
+def changed(rng: random.Random, text: bytes, kept: Sequence[bytes], words: Sequence[str]) -> bytes:
+    """Another text: words of the kind, bytes, lines and parts of others put in or left out."""
+    for _ in range(rng.choice((1, 1, 2, 3, 6))):
+        size = len(text)
+        a = rng.randrange(size + 1)
+        b = min(size, a + rng.choice((0, 1, 1, 2, 4, 16, 100)))
+        match rng.randrange(13):
+            case 0:
+                text = text[:a] + bytes([rng.randrange(256)]) + text[b:]
+            case 1:
+                text = text[:a] + text[b:]
+            case 2:
+                word = rng.choice(words).encode("utf-8", "surrogatepass")
+                text = text[:a] + word + text[b:]
+            case 3:
+                text = text[:b] + text[a:b] * rng.choice((1, 2, 50)) + text[b:]
+            case 4:
+                other = rng.choice(kept)
+                c = rng.randrange(len(other) + 1)
+                text = text[:a] + other[c : c + rng.choice((4, 20, 200))] + text[b:]
+            case 5:
+                lines = text.split(b"\n")
+                lines.insert(rng.randrange(len(lines)), rng.choice(lines))
+                text = b"\n".join(lines)
+            case 6:
+                lines = text.split(b"\n")
+                del lines[rng.randrange(len(lines))]
+                text = b"\n".join(lines)
+            case 7:
+                text = text[:a] + rng.choice(_NUMBERS) + text[b:]
+            case 8 | 9:
+                text = _replaced(rng, text, _NUMBER, rng.choice(_NUMBERS))
+            case 10 | 11:
+                word = rng.choice(words).encode("utf-8", "surrogatepass")
+                text = _replaced(rng, text, _WORD, word)
+            case _:
+                text = text[: max(a, 1)]
+    return text[:LONGEST]
+
+
+def _replaced(rng: random.Random, text: bytes, what: re.Pattern[bytes], by: bytes) -> bytes:
+    """With one of what matches replaced, at random."""
+    found = list(what.finditer(text))
+    if not found:
+        return text
+    one = rng.choice(found)
+    return text[: one.start()] + by + text[one.end() :]

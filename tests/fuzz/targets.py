@@ -1,4 +1,4 @@
-"""What else reads texts from outside, each as a function that a hostile text is given to.
+"""What reads texts from outside, each as a function that a hostile text is given to.
 
 A target answers with a few words on what became of the text: by new ones a text is worth keeping.
 Anything that it raises is a finding, but for what says in one message what is wrong.
@@ -7,43 +7,46 @@ Anything that it raises is a finding, but for what says in one message what is w
 from __future__ import annotations
 
 import json
+import math
 import re
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
+import numpy as np
+
+from bondgraph.cli.console import _some
 from bondgraph.frontend.incidence import read_table
 from bondgraph.frontend.read import decode
+from bondgraph.passes.elaboration import instantiate
 from bondgraph.pipeline import Compilation, Options
+from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.tuning import Tuning
 from bondgraph.runtime.live.follower import Follower
 from bondgraph.runtime.live.messages import Messages
 from bondgraph.runtime.live.server import _wish
 from bondgraph.runtime.live.setup import Setup, Target
-from bondgraph.runtime.log import LogError
+from bondgraph.runtime.log import Array, LogError
 from bondgraph.runtime.log_file import read_log
 from bondgraph.runtime.log_numbers import Form
-from bondgraph.runtime.monitoring.columns import Columns, read_map
+from bondgraph.runtime.monitoring.columns import Columns, read_map, read_time
 from bondgraph.runtime.monitoring.journal import Journal, JournalError
 from bondgraph.runtime.monitoring.sources.lines import Decoder
-from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.runtime.monitoring.verdict import Verdict, to_json, to_text
+from bondgraph.runtime.monitoring.watch_settings import watching
 from bondgraph.runtime.simulation.read_scenario import read_scenario
 from bondgraph.runtime.simulation.scenario import Scenario
-from bondgraph.text.diagnostic import CompileError, Report
-from bondgraph.text.render import render
+from bondgraph.text.diagnostic import CompileError, Report, Trouble
+from bondgraph.text.render import as_json, render
 from bondgraph.text.source import Source
-from tests.fuzz.mutate import BYTES, ENCODING, ROOT, corpus
+from tests.fuzz.attempt import Kind
+from tests.fuzz.mutate import BYTES, ENCODING, LANGUAGE, ROOT, corpus
 from tests.unit.runtime.live.rover import SCENARIO, rover
 
-
-class Kind(NamedTuple):
-    """A kind of text: what reads it, sound ones to begin with, words that belong to it."""
-
-    read: Callable[[bytes], str]
-    seeds: Callable[[], list[bytes]]
-    words: tuple[str, ...] = ()
+_PARTS = 60_000  # of a model, names and statements; three million are the limit
 
 
 @cache
@@ -57,7 +60,7 @@ def _shape(text: str) -> str:
 
 
 def _told(report: Report) -> str:
-    render(report.diagnostics, color=True).encode()
+    render(_some(tuple(report.diagnostics)), color=True).encode()
     for d in report.diagnostics:
         if d.severity == "error":
             assert d.labels and d.help, f"`{d.code}` has no place or no remedy"
@@ -73,6 +76,43 @@ def _source(name: str, data: bytes) -> tuple[Source | None, Report]:
 # ------------------------------------------------------------------------ models as a whole
 
 
+@contextmanager
+def _few_parts() -> Iterator[None]:
+    """Arrays of submodels may take their time (docs/limits.md), but not here, a million times."""
+    usual, instantiate.PARTS = instantiate.PARTS, _PARTS
+    try:
+        yield
+    finally:
+        instantiate.PARTS = usual
+
+
+def checked(data: bytes) -> str:
+    """What `bondgraph check` does with a model; says the code of the first error."""
+    path = str(ROOT / "models" / "fuzz.bg")
+    report = Report()
+    source = decode(path, data, report)
+    compilation = Compilation(source or Source(path, ""), options=Options(open_ports=True))
+    answer = "sound"
+    try:
+        report.stop_on_error()
+        with _few_parts():
+            assert compilation.integral.graph is not None
+        diagnostics = tuple(compilation.report.diagnostics)
+    except CompileError as error:
+        diagnostics = error.diagnostics
+        errors = [d for d in diagnostics if d.severity == "error"]
+        assert errors, "a failure without an error"
+        answer = errors[0].code
+    for diagnostic in diagnostics:
+        assert diagnostic.message and diagnostic.code, "an empty diagnostic"
+        if diagnostic.severity == "error":
+            assert diagnostic.labels, f"`{diagnostic.code}` names no place"
+            assert diagnostic.help, f"`{diagnostic.code}` gives no remedy"
+    render(_some(diagnostics), color=True).encode()
+    json.dumps(as_json(diagnostics))
+    return answer
+
+
 def compiled(data: bytes) -> str:
     """A model through all stages and onto the disk; no file where one stage refuses it."""
     report = Report()
@@ -82,9 +122,10 @@ def compiled(data: bytes) -> str:
         report.stop_on_error()
         assert source is not None
         compilation = Compilation(source, options=Options())
-        paths = compilation.write(out, targets=["c", "python"])
+        with _few_parts():
+            paths = compilation.write(out, targets=["c", "python"])
     except CompileError as error:
-        render(error.diagnostics, color=True).encode()
+        render(_some(error.diagnostics), color=True).encode()
         assert not out.exists() or not any(out.iterdir()), "half written"
         return f"refused {error.diagnostics[0].code}" if error.diagnostics else _shape(str(error))
     assert all(Path(p).stat().st_size for p in paths)
@@ -103,13 +144,30 @@ def scenario(data: bytes) -> str:
 
 
 def mapped(data: bytes) -> str:
-    """A map file for the rover."""
+    """A map file for the rover, and a log read by it."""
     path = _folder() / "map.toml"
     path.write_bytes(data)
+    signals = rover().program.read
     try:
-        return f"{len(read_map(path, rover().program.read))} signals"
+        mapping, time = read_map(path, signals), read_time(path)
+        log = read_log(
+            _recorded(), time=time.column if time else None, unit=time.unit if time else None
+        )
+        Columns(signals, mapping, "log")(log)
+        return f"samples by {len(mapping)} signals"
     except LogError as error:
         return _shape(error.message)
+
+
+@cache
+def _recorded() -> Path:
+    """A log of the rover by somebody who gave other names and units."""
+    path = _folder() / "recorded.csv"
+    path.write_text(
+        "stamp,left,right,enc l,enc r,speed l [mm/s],speed r,state\n"
+        + "".join(f"{5 * k},1,{k},{2 * k},0,500,1e-3,on\n" for k in range(8))
+    )
+    return path
 
 
 def logged(data: bytes) -> str:
@@ -136,12 +194,42 @@ def incidence(data: bytes) -> str:
 
 
 def tuning(data: bytes) -> str:
-    """A tuning."""
+    """A tuning for the rover, then a second of samples watched with it."""
     try:
-        Tuning.from_json(data.decode(ENCODING, BYTES))
-    except ValueError as error:
+        found = Tuning.from_json(data.decode(ENCODING, BYTES))
+        rate = found.rate
+        assert rate > 0 and math.isfinite(rate) and found.to_json()
+        engine, decided = watching(rover(), found, lambda _: None)
+    except (ValueError, Trouble) as error:
         return _shape(str(error))
-    return "sound"
+    time, samples = _second(len(engine.signals))
+    said = decided(engine).update(time, engine.run(samples), samples)
+    for number, verdict in enumerate(said):
+        json.loads(to_json(verdict, number), parse_constant=_none)
+        to_text(verdict)
+    return "sound " + ", ".join(v.event for v in said[:3])
+
+
+def _none(name: str) -> None:
+    raise AssertionError(f"{name} in a verdict, which is no JSON")
+
+
+def _second(signals: int) -> tuple[Array, Array]:
+    """The times of a second at 200 Hz, and samples of as many signals that move, then jump."""
+    time = np.arange(200) / 200
+    samples = np.sin(np.outer(time, np.arange(1, signals + 1)))
+    samples[150:] += 5.0
+    return time, samples
+
+
+def _tunings() -> list[bytes]:
+    """What `tune` writes of the rover."""
+    compilation = rover()
+    engine = compilation.engine(native=False)
+    rng = np.random.default_rng(1)
+    log = rng.normal(0.0, 1e-3, (4000, len(engine.signals)))
+    tuned = tune(engine, compilation.diagnosis_model, [log], compilation.program.digest, 1.0)
+    return [tuned.tuning.to_json().encode()]
 
 
 def journal(data: bytes) -> str:
@@ -230,6 +318,18 @@ def _files(*patterns: str) -> Callable[[], list[bytes]]:
     return lambda: [p.read_bytes() for pattern in patterns for p in sorted(ROOT.glob(pattern))]
 
 
+def _models() -> list[bytes]:
+    return [t.encode() for t in corpus()]
+
+
+_MAP = """time = { column = "stamp", unit = "ms" }
+"F[1]" = "left"
+"F[2]" = "right"
+"turn[1]" = { column = "enc l", scale = 1.0, offset = 0 }
+"turn[2]" = "enc r"
+"v[1]" = { column = "speed l", unit = "mm/s" }
+"v[2]" = { column = "speed r", scale = 0.5 }
+"""
 _ROWS = "t,F[1],F[2],turn[1],turn[2],v[1],v[2]\n" + "".join(
     f"{k / 200},1,{k},{2 * k},0,0.5,1e-3\n" for k in range(8)
 )
@@ -245,7 +345,8 @@ _NUMBERS = ("1e999", "-0", "nan", "inf", "null", "true", "9" * 500, "1e-400", "0
 _MARKS = ("\x1b[2J", "\u202e", "\ufeff", "\0", "\r", "\x0b", "\x85", "\u2028", '"', "[" * 60, "\\u")
 
 KINDS: dict[str, Kind] = {
-    "compile": Kind(compiled, lambda: [t.encode() for t in corpus()]),
+    "check": Kind(checked, _models, LANGUAGE, models=True),
+    "compile": Kind(compiled, _models, LANGUAGE, models=True),
     "scenario": Kind(
         scenario,
         lambda: [SCENARIO.encode(), *_files("models/scenarios/*.toml")()],
@@ -254,15 +355,20 @@ KINDS: dict[str, Kind] = {
               " plane desired initial solver record".split()),
     ),
     "map": Kind(mapped, lambda: [
-        b'"F[1]" = "a"\n"v[1]" = { column = "b", scale = 2.0, offset = 1 }\ntime = "t"\n',
+        _MAP.encode(),
+        _MAP.replace('"turn[1]"', "turn__1").replace('"right"', '{ column = "state" }').encode(),
         b'time = { column = "stamp", unit = "ms" }\nv = { "1" = "x" }\n',
-    ], ("column", "scale", "offset", "unit", "time", "F[1]", "turn[2]")),
+    ], ("column", "scale", "offset", "unit", "time", "F[1]", "turn[2]", "stamp", "left", "right",
+        "enc l", "enc r", "speed r", "state", "ms", "km/h", "counts", "rad", "{", "= ", '"')),
     "log": Kind(logged, lambda: _LOGS, ("t,", "# unit ", "time (ms)", "[s]", "m^-999", "°C")),
     "incidence": Kind(incidence, lambda: [
         b"equation,x:q,x:dq,z:y,f:a\nlaw,,1,1,x\nder,I,D,,\nsensor,1,,1,.\n",
         b"e\tx:a\tz:b\n1\tx\tX\n",
     ], ("x:", "z:", "f:", "I", "D", "1", ".", "\t", ";")),
-    "tuning": Kind(tuning, lambda: [b'{"bondgraph tuning": 1, "limits": {}}']),
+    "tuning": Kind(tuning, _tunings, (
+        "bondgraph tuning", "model", "rate", "bandwidth", "false_alarms", "seconds", "limits", "r1",
+        "sigma", "crossings", "kappa", "height", "mean", "memory", "NaN", "Infinity", "{}", "0.0",
+    )),
     "journal": Kind(journal, _journals, ('"crc"', '"n"', '"verdicts"', '"position"', '"sent"')),
     "payload": Kind(payload, lambda: _LOGS, ("t,", "# unit ", "{", "[{", "}]")),
     "wish": Kind(wished, lambda: [

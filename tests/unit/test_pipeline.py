@@ -91,10 +91,14 @@ def test_another_rate_keeps_what_it_does_not_change(model: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "options", [{"rate": 0.0}, {"rate": float("nan")}, {"bandwidth": -1.0}, {"resolution": -1.0}]
-)
+    "options",
+    [{"rate": 0.0}, {"rate": float("nan")}, {"rate": 2e9}, {"bandwidth": -1.0},
+     {"bandwidth": 1e-320}, {"resolution": -1.0}],
+)  # fmt: skip
 def test_a_number_that_is_none_of_a_filter_is_refused(options: dict[str, float]) -> None:
-    with pytest.raises(ValueError, match=f"{next(iter(options))} must be a positive number"):
+    name = next(iter(options))
+    wrong = "a positive number" if name == "resolution" else "from 1e-09 to 1e"
+    with pytest.raises(ValueError, match=f"{name} must be {wrong}"):
         bondgraph.compile(text=_CIRCUIT, **options)
 
 

@@ -87,7 +87,11 @@ def tune(
             f"no log is longer than the warm-up of {engine.warm_up:g} s: nothing can be learned"
         )
     found = _limits(engine, learned, false_alarms, centred(model, engine.residuals), work.spread)
-    tuning = Tuning(digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, found)
+    bounds = dict(zip(engine.residuals, np.max([n.bound for n in learned], axis=0).tolist(),
+                      strict=True))  # fmt: skip
+    tuning = Tuning(
+        digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, found, bounds
+    )
     sizes: list[list[_Seen]] = [[] for _ in work.all]
     for k, log in enumerate(logs):
         for seen in work.windows(log, found, window):
@@ -103,7 +107,8 @@ def tune(
 class _Noise(NamedTuple):
     """Of one log: how many valid samples, by residual the upward crossings of its mean, the level
     that one sample in a thousand exceeds beside it, the largest excess over the threshold to either
-    side; the rows, and what is left of them beside parameters and is not covered by tolerances."""
+    side; the rows, and what is left of them beside parameters and is not covered by tolerances; the
+    largest threshold."""
 
     rows: int
     crossings: Array
@@ -111,6 +116,7 @@ class _Noise(NamedTuple):
     excess: Array
     every: tuple[Row, ...]
     rest: Array
+    bound: Array
 
 
 class _Seen(NamedTuple):
@@ -156,6 +162,7 @@ class _Work:
                 every.append(Row(0.0, samples[:0], self.engine, *own))
         found = history.fit()
         rest, spaced, excess, rows = [], [], [], 0
+        bound = np.zeros(len(self.engine.residuals))
         for batch, slopes, _ in self._chunks(samples[start:], samples[:start]):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)
             rest.append(np.where(batch.valid, left, np.nan))
@@ -163,6 +170,7 @@ class _Work:
             sides = np.stack([batch.value, -batch.value]) - batch.bound
             excess.append(np.where(batch.valid, sides, -np.inf).max(axis=1, initial=-np.inf))
             rows += int(batch.valid.any(axis=1).sum())
+            bound = np.maximum(bound, batch.bound.max(axis=0, initial=0.0))
         left = np.concatenate(rest)
         off = np.nan_to_num(left - [_mean(column) for column in left.T])
         return _Noise(
@@ -172,6 +180,7 @@ class _Work:
             np.max(excess, axis=0),
             tuple(every),
             uncovered(np.concatenate(spaced), np.array([row.bound for row in every])),
+            bound,
         )
 
     def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array, Array]]:

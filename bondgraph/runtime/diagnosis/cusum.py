@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from bondgraph.ir.residual_limit import OVERSHOOT, SHARE, ResidualLimit
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
 _LOUDER = 4.0  # times the variance of noise: twice as loud
-_OVERSHOOT = 1.166  # of the mean of sums over their height, to either side (Siegmund, 1985)
-_SHARE = 1.0 / 3.0  # of the height, that a single row adds at most to how loud it is
+_SQUARE, _LOUD = 0.5 * (1.0 - 1.0 / _LOUDER), 0.5 * math.log(_LOUDER)
 _LOW = 1.0  # peaks below are not counted
 _BEFORE = 20.0  # peaks of normal rows that are reckoned with before the first one
 _ABOVE = 1.2  # times the highest peak of a healthy machine that a height stays above
@@ -58,13 +59,13 @@ class Cusum:
         """
         known = row.valid & np.isfinite(limits[:, 0])
         sigma, memory = limits[:, 0], limits[:, 5]
-        top = self.heights(limits[:, 3] + np.array([[0.0], [0.0], [_OVERSHOOT]]))
-        squares = 0.5 * (memory + 1.0 / memory)  # the memory of squares, of first order
+        top = self.heights(limits[:, 3] + np.array([[0.0], [0.0], [OVERSHOOT]]))
+        squares = squared(memory)
         with np.errstate(divide="ignore", invalid="ignore"):
             off = (np.stack([row.value, -row.value]) - row.bound) / (sigma * np.sqrt(memory)) - 0.5
             size = np.maximum(np.abs(row.value) - row.bound, 0.0) / sigma
-            loud = 0.5 * (size**2 * (1.0 - 1.0 / _LOUDER) - math.log(_LOUDER)) / squares
-            more = np.vstack([off, np.minimum(loud, _SHARE * top[2])[None]])
+            loud = (size**2 * _SQUARE - _LOUD) / squares
+            more = np.vstack([off, np.minimum(loud, SHARE * top[2])[None]])
             after = np.clip(self.sums + more, 0.0, 2.0 * top)
         self.sums = np.where(known, after, 0.0)
         if self._learns:
@@ -92,3 +93,25 @@ class Cusum:
         peaks = array(state["peaks"], (5, len(self._count)))
         other._count, other._excess, other._highest = peaks[0], peaks[1], peaks[2:]
         return other
+
+
+def squared(memory: Any) -> Any:
+    """The memory of squares, of noise of first order that has this one."""
+    return 0.5 * (memory + 1.0 / memory)
+
+
+def on_board(limit: Limit, bound: float = 0.0) -> ResidualLimit:
+    """The limit as code has it that has no history: what it multiplies with, once and for all.
+
+    `bound` is the largest adaptive threshold.
+
+    >>> on_board(Limit(sigma=0.2, crossings=10.0, kappa=4.5, height=9.3))[:3]
+    (0.0, 0.9, 5.0)
+    """
+    sigma, memory = limit.sigma, limit.memory
+    squares = squared(memory)
+    unit = 1.0 / (sigma * math.sqrt(memory))
+    loud = _SQUARE / (squares * sigma**2)
+    return ResidualLimit(
+        limit.mean, limit.kappa * sigma, unit, loud, _LOUD / squares, limit.height, bound
+    )

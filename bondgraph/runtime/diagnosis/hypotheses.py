@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.ir.residual_limit import ROW
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
@@ -18,7 +19,6 @@ _STEP = 1e-5  # relative change that a sensitivity is taken from
 _USUAL = 0.3  # share of what a fault usually changes: of a value, of the size of a signal
 _COUNTS = 0.02  # share of an encoder's counts: smaller ones would drown in rounding
 _SLIP = 1 / 8  # of a turn, by which an encoder usually slips
-_APART = 3.0  # time constants of the filter between two rows
 _AT_ONCE = 2**18  # numbers that the engines of a bank take and give in one call
 
 COUNT = "count"  # the unit of an encoder's offset
@@ -420,4 +420,4 @@ def rows_apart(engine: Engine) -> int:
     The residual filter forgets with its bandwidth; after three time constants of a filter of third
     order the correlation is 0.35 (Matern).
     """
-    return max(1, math.ceil(_APART / engine.bandwidth / engine.sample_time))
+    return max(1, math.ceil(ROW / engine.bandwidth / engine.sample_time))

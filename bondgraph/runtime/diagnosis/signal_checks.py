@@ -158,10 +158,10 @@ class SignalChecks:
         """Of each kind: which signals are unusual, how far out each is now, and was at most."""
         with np.errstate(divide="ignore", invalid="ignore"):
             floor = _FLOOR * np.maximum(span, 1e-300)
-            spike = far[0] > _OUT * np.maximum(self._far[0], floor)
+            spike = far[0] > np.maximum(_OUT * self._far[0], floor)
             spike &= far[0] > _ALONE * far[2]
             out = np.where(self._rows >= _MANY, _OUT, 1.5 * _OUT)
-            burst = rough > out * np.maximum(self._rough[0], floor)
+            burst = rough > np.maximum(out * self._rough[0], floor)
             beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
             burst &= beside > np.minimum(_ROUGHER * self._rough[1], _WHITE)
             longest = np.maximum(_STILL * self._still, _LEAST)

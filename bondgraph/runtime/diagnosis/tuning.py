@@ -5,12 +5,18 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from bondgraph.text.foreign_data import WrongData, json_data
+from bondgraph.text.limits import RATE
 from bondgraph.text.tuples import NamedTuple
 
 EDITION = 1
+_MOST = 1e100  # of any number: its square is one, too
+#: What each number of a limit is at least.
+_LEAST = {"sigma": 1 / _MOST, "crossings": 0.0, "kappa": 0.0, "height": 0.0, "mean": -_MOST,
+          "memory": 1 / _MOST}  # fmt: skip
 _SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filter may be, rad
 _ENOUGH = 75  # rows, of three time constants, that a log should have
 
@@ -37,6 +43,7 @@ class Tuning(NamedTuple):
 
     `false_alarms` are those wanted per hour, of all residuals and tests together; `model` is
     the digest of the residuals that it belongs to, `seconds` how much healthy data it is from.
+    `bounds` are the largest adaptive thresholds a in that data, by residual.
 
     >>> limits = {"r1": Limit(sigma=0.2, crossings=10.0, kappa=4.7, height=9.3)}
     >>> tuning = Tuning("7888fd5a1d32470a", 1000.0, 20.0, 1.0, 60.0, limits)
@@ -50,6 +57,7 @@ class Tuning(NamedTuple):
     false_alarms: float
     seconds: float
     limits: Mapping[str, Limit]
+    bounds: Mapping[str, float] = MappingProxyType({})
 
     def to_json(self) -> str:
         """A text for people and programs, as `bondgraph tune` writes it."""
@@ -57,6 +65,7 @@ class Tuning(NamedTuple):
             "bondgraph tuning": EDITION,
             **self._asdict(),
             "limits": {name: limit._asdict() for name, limit in self.limits.items()},
+            "bounds": dict(self.bounds),
         }
         return json.dumps(record, indent=2) + "\n"
 
@@ -69,24 +78,32 @@ class Tuning(NamedTuple):
                 raise ValueError(f"edition {record['bondgraph tuning']} is not known here")
             limits = {
                 str(name): Limit(
-                    *[float(limit[key]) for key in Limit._fields[:4]],
-                    *[float(limit.get(key, x)) for key, x in Limit._field_defaults.items()],
+                    **{k: _number(Limit._field_defaults | limit, k, x) for k, x in _LEAST.items()}
                 )
                 for name, limit in record["limits"].items()
             }
             return cls(
                 str(record["model"]),
-                float(record["rate"]),
-                float(record["bandwidth"]),
-                float(record["false_alarms"]),
-                float(record["seconds"]),
+                _number(record, "rate", 1.0 / RATE, RATE),
+                _number(record, "bandwidth", 1.0 / RATE, RATE),
+                _number(record, "false_alarms", 0.0),
+                _number(record, "seconds", 0.0),
                 limits,
+                {str(n): _number(record["bounds"], n, 0.0) for n in record.get("bounds", {})},
             )
         except (KeyError, TypeError, AttributeError, OverflowError) as error:
             raise ValueError(f"this is no tuning: {error}") from error
         except WrongData as error:
             where = f" in line {error.line}" if error.line else ""
             raise ValueError(f"this is no tuning: {error}{where}") from error
+
+
+def _number(record: Mapping[str, Any], key: str, least: float, most: float = _MOST) -> float:
+    """A number of a tuning; raises ValueError for one that no tuning has."""
+    value = record[key]
+    if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value <= most:
+        raise ValueError(f"`{key}` of a tuning is a number from {least:g} to {most:g}")
+    return float(value)
 
 
 _NEVER = Limit(math.inf, 1.0, 1.0, math.inf)

@@ -19,6 +19,7 @@ from bondgraph.text.regular_file import check_regular
 from bondgraph.text.tuples import NamedTuple
 
 _KEYS = {"column", "scale", "offset", "unit"}
+_LARGEST = 1e300  # that a scale or an offset may be
 _CLOCK = "time"  # in a map file: where the time is
 
 
@@ -256,10 +257,12 @@ def _mapped(path: str, key: str, value: object) -> Mapped:
     odd = next((k for k in value if k not in _KEYS), None)
     if odd is not None:
         raise LogError(path, None, f"{key} has an unknown `{odd}`", example)
-    for number in (value.get("scale"), value.get("offset")):
-        good = number is None or (isinstance(number, int | float) and np.isfinite(number))
+    numbers = [value.get("scale"), value.get("offset")]
+    for number in numbers:
+        good = number is None or (isinstance(number, int | float) and abs(number) <= _LARGEST)
         if not good or isinstance(number, bool):
-            raise LogError(path, None, f"scale and offset of {key} must be numbers", example)
+            message = f"scale and offset of {key} must be numbers, up to {_LARGEST:g}"
+            raise LogError(path, None, message, example)
     unit = value.get("unit")
     if unit is not None and not isinstance(unit, str):
         raise LogError(path, None, f"the unit of {key} must be a text", example)
@@ -268,7 +271,8 @@ def _mapped(path: str, key: str, value: object) -> Mapped:
         raise LogError(path, None, message, "give one of them: scale and offset lead to SI units")
     if not isinstance(value.get("column"), str):
         raise LogError(path, None, f"{key} has no column", example)
-    return Mapped(value["column"], value.get("scale"), value.get("offset"), unit)
+    factor, offset = (None if n is None else float(n) for n in numbers)
+    return Mapped(value["column"], factor, offset, unit)
 
 
 def _identifier(path: str) -> str:

@@ -27,7 +27,13 @@ from bondgraph.runtime.simulation.scenario import (
 from bondgraph.runtime.simulation.toml_table import HERTZ, PURE, SECOND, Document, Table, places
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.foreign_data import WrongData, toml_data
-from bondgraph.text.limits import FAULT_TIMES, SCENARIO_BYTES, SCENARIO_CONTROLLERS, SCENARIO_FAULTS
+from bondgraph.text.limits import (
+    FAULT_TIMES,
+    RATE,
+    SCENARIO_BYTES,
+    SCENARIO_CONTROLLERS,
+    SCENARIO_FAULTS,
+)
 from bondgraph.text.source import Source, Span
 
 STARTS = ("initial", "steady")
@@ -278,7 +284,7 @@ class _Reader:
 
     def _sampling(self, table: Table) -> Sampling:
         sampling = Sampling(
-            table.number("rate", HERTZ, 1000.0, 0.0, 1e15, above=True),
+            table.number("rate", HERTZ, 1000.0, 1.0 / RATE, RATE),
             table.number("jitter", PURE, 0.0, 0.0, 0.9),
             table.number("lost", PURE, 0.0, 0.0, 0.9),
         )

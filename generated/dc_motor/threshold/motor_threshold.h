@@ -29,7 +29,7 @@ typedef double motor_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define MOTOR_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(motor_threshold_real))
+#define MOTOR_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(motor_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define MOTOR_THRESHOLD_DIGEST "8f94ab1752b376f2"
 

@@ -30,7 +30,7 @@ typedef double drive_bench_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define DRIVE_BENCH_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(drive_bench_threshold_real))
+#define DRIVE_BENCH_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(drive_bench_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define DRIVE_BENCH_THRESHOLD_DIGEST "e727117c054f0c86"
 

@@ -30,7 +30,7 @@ typedef double drive_as_drawn_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define DRIVE_AS_DRAWN_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(drive_as_drawn_threshold_real))
+#define DRIVE_AS_DRAWN_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(drive_as_drawn_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define DRIVE_AS_DRAWN_THRESHOLD_DIGEST "ccc760dc47c2348d"
 

@@ -30,7 +30,7 @@ typedef double hydraulic_actuator_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define HYDRAULIC_ACTUATOR_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(hydraulic_actuator_threshold_real))
+#define HYDRAULIC_ACTUATOR_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(hydraulic_actuator_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define HYDRAULIC_ACTUATOR_THRESHOLD_DIGEST "97ae4505020fa93e"
 

@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 
 #: Version of the classes and methods below.
-ABI = 1
+ABI = 2
 #: Identifies the model and the options that this code was made from.
 DIGEST = "7cd44700aab27524"
 

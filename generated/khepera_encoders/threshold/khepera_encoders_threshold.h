@@ -30,7 +30,7 @@ typedef double khepera_encoders_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_ENCODERS_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(khepera_encoders_threshold_real))
+#define KHEPERA_ENCODERS_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(khepera_encoders_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_ENCODERS_THRESHOLD_DIGEST "6877f380ac7985e4"
 

@@ -30,7 +30,7 @@ typedef double microphone_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define MICROPHONE_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(microphone_threshold_real))
+#define MICROPHONE_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(microphone_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define MICROPHONE_THRESHOLD_DIGEST "ffe05f2325294fab"
 

@@ -29,7 +29,7 @@ typedef double oven_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define OVEN_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(oven_threshold_real))
+#define OVEN_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(oven_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define OVEN_THRESHOLD_DIGEST "f36808381a90b34d"
 

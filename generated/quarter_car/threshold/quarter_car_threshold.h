@@ -30,7 +30,7 @@ typedef double quarter_car_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define QUARTER_CAR_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(quarter_car_threshold_real))
+#define QUARTER_CAR_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(quarter_car_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define QUARTER_CAR_THRESHOLD_DIGEST "7f56d58a433cc549"
 

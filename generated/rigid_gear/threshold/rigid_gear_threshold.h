@@ -30,7 +30,7 @@ typedef double rigid_gear_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define RIGID_GEAR_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(rigid_gear_threshold_real))
+#define RIGID_GEAR_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(rigid_gear_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define RIGID_GEAR_THRESHOLD_DIGEST "5b171bb0b170f7e9"
 

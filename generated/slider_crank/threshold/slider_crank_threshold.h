@@ -30,7 +30,7 @@ typedef double slider_crank_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define SLIDER_CRANK_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(slider_crank_threshold_real))
+#define SLIDER_CRANK_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(slider_crank_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define SLIDER_CRANK_THRESHOLD_DIGEST "c96ee67695fa5a03"
 

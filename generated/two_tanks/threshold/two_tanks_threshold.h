@@ -30,7 +30,7 @@ typedef double two_tanks_threshold_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define TWO_TANKS_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(two_tanks_threshold_real))
+#define TWO_TANKS_THRESHOLD_ABI (2u * 256u + (uint32_t)sizeof(two_tanks_threshold_real))
 /* Identifies the model and the options that this code was made from. */
 #define TWO_TANKS_THRESHOLD_DIGEST "37f5115aac4cace1"
 

@@ -83,7 +83,7 @@ def test_every_field_says_unit_and_meaning() -> None:
     text = _text("motor_residuals.h")
     assert "motor_real R;  /* Ohm: resistance, el.R (motor.bg:3) */" in text
     assert '#define MOTOR_DIGEST "0123456789abcdef"' in text
-    assert "#define MOTOR_ABI (1u * 256u + (uint32_t)sizeof(motor_real))" in text
+    assert "#define MOTOR_ABI (2u * 256u + (uint32_t)sizeof(motor_real))" in text
 
 
 @pytest.mark.parametrize(

@@ -236,3 +236,28 @@ def test_draw_writes_a_figure(bondgraph: Command, tmp_path: Path) -> None:
     assert path.read_text().startswith("<svg")
     derivative = bondgraph("draw", MOTOR, "--derivative", "-o", "-")
     assert derivative.out.startswith("<svg") and derivative.out != path.read_text()
+
+
+def test_code_takes_limits_of_its_own_tuning_only(bondgraph: Command, tmp_path: Path) -> None:
+    found, out = tmp_path / "tuning.json", tmp_path / "out"
+    learned = ("tune", MOTOR, "--simulate", tmp_path / "run.toml", "--runs", "1", "-o", found)
+    (tmp_path / "run.toml").write_text('duration = "8 s"\n'
+                                       '[inputs]\nU = "6*(1 + 0.3*sin(t))"\nload = 0\n'
+                                       "[sensors.current]\nnoise = 0.001\n"
+                                       "[sensors.speed]\nnoise = 0.5\n")  # fmt: skip
+    assert bondgraph(*learned).status == 0
+    for wrong, why in (
+        (("compile", MODELS / "quarter_car.bg", "--tuning", found), "of another model"),
+        (("compile", MOTOR, "--isolate", "--decouple", "R", "--tuning", found), "other options"),
+        (("compile", MOTOR, "--rate", "500", "--tuning", found), "--rate 1000, not for 500"),
+        (("compile", MOTOR, "--tuning", tmp_path / "run.toml"), "this is no tuning"),
+        (("compile", MOTOR, "--tuning", tmp_path / "none.json"), "none.json"),
+    ):
+        done = bondgraph(*wrong, "-o", out)
+        assert done.status == 1 and why in done.err and not out.exists()
+    done = bondgraph("compile", MOTOR, "--tuning", found, "-o", out)
+    bandwidth = json.loads(found.read_text())["bandwidth"]
+    assert done.status == 0
+    assert f"#define MOTOR_BANDWIDTH MOTOR_CONSTANT({bandwidth})" in (
+        out / "motor_residuals.h"
+    ).read_text()

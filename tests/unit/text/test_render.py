@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -147,6 +148,19 @@ def test_wide_line_is_cut_around_each_label() -> None:
         if "- there" in line:
             assert lines[number - 1][line.index("-") :].startswith("a = b")
     assert sum("here" in line or "there" in line for line in lines) == 2
+
+
+def test_a_long_line_with_many_labels_is_made_fit_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A table of one line of a megabyte and a hundred findings took more than a minute."""
+    widths: list[str] = []
+    monkeypatch.setattr("bondgraph.text.render._cell_width", lambda c: widths.append(c) or 1)
+    source = Source("m.bg", "é, " * 2000)
+    findings = [
+        Diagnostic("c", "wrong", (Label(Span(source, 3 * k, 3 * k + 1), "here"),), "mend it")
+        for k in range(100)
+    ]
+    assert render(findings, False).count("^ here") == 100
+    assert len(widths) == 6000
 
 
 def test_control_characters_do_not_reach_the_terminal() -> None:

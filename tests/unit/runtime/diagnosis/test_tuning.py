@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -43,3 +45,14 @@ def test_a_tuning_is_read_back_and_other_texts_are_not() -> None:
     for text in ("", "{}", "[1]", "3", tuning.to_json().replace("sigma", "sigmo"), other):
         with pytest.raises(ValueError, match=r"tuning|edition"):
             Tuning.from_json(text)
+
+
+@pytest.mark.parametrize("wrong", ["0", "-1", "NaN", "Infinity", "1e-320", "1" + "0" * 101, '"2"'])
+@pytest.mark.parametrize("key", ["rate", "bandwidth", "sigma", "memory"])
+def test_numbers_that_no_tuning_has_are_refused(key: str, wrong: str) -> None:
+    """A bandwidth of 0 divided by zero, a rate without end was no whole number of samples."""
+    text = Tuning("abc", 1000.0, 20.0, 2.0, 300.0, {"r1": Limit(0.1, 3.0, 4.5, 10.0)}).to_json()
+    text, number = re.subn(rf'("{key}": )[\d.]+', rf"\g<1>{wrong}", text)
+    assert number == 1
+    with pytest.raises(ValueError, match=f"`{key}` of a tuning is a number from"):
+        Tuning.from_json(text)

@@ -139,6 +139,7 @@ def test_a_map_file(tmp_path: Path) -> None:
         ('"on" = { column = "a", scale = "2" }\n', "must be numbers"),
         ('"on" = { column = "a", scale = nan }\n', "must be numbers"),
         ('"on" = { column = "a", scale = true }\n', "must be numbers"),
+        (f'"on" = {{ column = "a", scale = 1{"0" * 301} }}\n', r"must be numbers, up to 1e\+300"),
         ('"on" = { column = "a", scale = 2, unit = "V" }\n', "a unit and a scale"),
         ('"on" = { column = "a", unit = 2 }\n', "must be a text"),
         ('"on" = {}\n', "no column"),

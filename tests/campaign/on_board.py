@@ -1,0 +1,152 @@
+"""The verdict on board beside that of the monitor: the generated example in C reads the logs.
+
+Both have one tuning, of healthy machines of the kind. On board nothing is learned of the one that
+is watched, and what tolerances may do is the largest of the tuning's logs.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from bondgraph.backends.identifiers import snake
+from bondgraph.backends.write import write
+from bondgraph.runtime.diagnosis.calibration import tune
+from bondgraph.runtime.diagnosis.hypotheses import rows_apart
+from bondgraph.runtime.diagnosis.tuning import Tuning, bandwidth_for
+from bondgraph.runtime.log import Array, Log
+from bondgraph.runtime.log_file import write_log
+from tests.campaign.faults import Kind, kinds, lasting, span
+from tests.campaign.machines import MACHINES, Machine, compiled, run
+
+_HEALTHY = 1, 2, 3  # seeds of the machines that the tuning is of
+_SAID = re.compile(
+    r"sample (\d+): (.*?) in alarm(?:; (perhaps|one of) (.*?))?(?:; or, if it is small, (.*))?$"
+)
+
+
+class Said(NamedTuple):
+    """One line: the sample, whether a class is named, its faults or the likely ones, and all that
+    are not ruled out."""
+
+    sample: int
+    named: bool
+    likely: set[str]
+    left: set[str]
+
+
+class Compared(NamedTuple):
+    """Of one run: rows from the monitor's alarm to that on board, None without one of them; false
+    alarms on board, whether all that was said held the fault, whether a class was named at the end
+    and is the monitor's, as far as both named one."""
+
+    late: float | None
+    seen: tuple[bool, bool]
+    false: bool
+    held: bool
+    named: bool
+    right: bool
+    same: bool | None
+
+
+@cache
+def _tuning(machine: Machine) -> Tuning:
+    c = compiled(machine)
+    logs = [run(machine, seed, span(machine)[0]) for seed in _HEALTHY]
+    engine = c.engine().configured(bandwidth=bandwidth_for(machine.rate, len(logs[0])))
+    return tune(engine, c.diagnosis_model, logs, c.program.digest, 1.0).tuning
+
+
+@cache
+def _program(machine: Machine) -> Path:
+    """The example of the generated code, compiled with the tuning."""
+    folder = Path(tempfile.mkdtemp(prefix="on-board-"))
+    c = compiled(machine).tuned(_tuning(machine))
+    write(c.artifacts, folder)
+    source = f"{snake(c.program.name)}_residuals.c"
+    command = ["cc", "-std=c99", "-O2", "example.c", source, "-o", "example", "-lm"]
+    subprocess.run(command, cwd=folder, check=True)
+    return folder / "example"
+
+
+def _said(machine: Machine, samples: Array) -> list[Said]:
+    """What the example says of samples."""
+    engine = compiled(machine).engine()
+    columns = {k.path: samples[:, at] for at, k in enumerate(engine.signals)}
+    units = {k.path: k.unit for k in engine.signals}
+    time = np.arange(len(samples)) * engine.sample_time
+    with tempfile.TemporaryDirectory() as folder:
+        log = Path(folder) / "log.csv"
+        write_log(Log(time, columns, units, {}), str(log))
+        done = subprocess.run([_program(machine), log], capture_output=True, text=True, check=True)
+    found = []
+    for line in done.stdout.splitlines():
+        if said := _SAID.match(line):
+            at, _, how, likely, small = said.groups()
+            names = [set(filter(None, (text or "").split(", "))) for text in (likely, small)]
+            found.append(Said(int(at), how == "one of", names[0], names[0] | names[1]))
+    return found
+
+
+def _compared(task: tuple[str, int, Kind]) -> Compared:
+    name, seed, kind = task
+    machine = next(m for m in MACHINES if m.name == name)
+    duration, onset = span(machine)
+    samples = run(machine, seed, duration, (lasting(machine, kind),))
+    c = compiled(machine)
+    engine = c.engine().configured(bandwidth=_tuning(machine).bandwidth)
+    watch = c.diagnosis(engine, _tuning(machine))
+    time = np.arange(len(samples)) * engine.sample_time
+    verdicts = watch.update(time, engine.configured().run(samples), samples)
+    alarm = next((v.time for v in verdicts if v.event == "fault" and v.time >= onset), None)
+    classes = [v.group for v in verdicts if v.event == "update" and v.time >= onset]
+    monitor = set(classes[-1]) if classes else set()
+    said = _said(machine, samples)
+    first = round(onset * machine.rate)
+    after = [one for one in said if one.sample >= first]
+    row = rows_apart(engine) * engine.sample_time
+    late = (after[0].sample / machine.rate - alarm) / row if after and alarm is not None else None
+    last = next((one.likely for one in reversed(after) if one.named), set())
+    return Compared(
+        late,
+        (alarm is not None, bool(after)),
+        len(after) < len(said),
+        all(kind.of in one.left for one in after),
+        bool(last),
+        kind.of in last,
+        bool(monitor & last) if monitor and last else None,
+    )
+
+
+def on_board(machines: Sequence[Machine], seeds: int, start: int, jobs: int) -> str:
+    """A table of both, by machine."""
+    lines = [
+        "| machine | runs | seen by the monitor | on board | rows later, median | 95 % | false"
+        " before | never ruled out | class named | right | the monitor's class |",
+        "|---" * 11 + "|",
+    ]
+    for machine in machines:
+        _program(machine)
+        tasks = [(machine.name, start + k, kind) for kind in kinds(machine) for k in range(seeds)]
+        with ProcessPoolExecutor(jobs) as pool:
+            found = list(pool.map(_compared, tasks))
+        late = [f.late for f in found if f.late is not None]
+        middle, most = np.quantile(late, [0.5, 0.95]) if late else (np.nan, np.nan)
+        both = [f.same for f in found if f.same is not None]
+        seen = [f for f in found if f.seen[1]]
+        lines.append(
+            f"| {machine.name} | {len(found)} | {sum(f.seen[0] for f in found)} | {len(seen)} |"
+            f" {middle:.1f} | {most:.1f} | {sum(f.false for f in found)} |"
+            f" {sum(f.held for f in seen)} of {len(seen)} | {sum(f.named for f in found)} |"
+            f" {sum(f.right for f in found)} | {sum(both)} of {len(both)} |"
+        )
+        print(lines[-1], flush=True)
+    return "\n".join(lines)
