@@ -133,6 +133,8 @@ def _entries(own: FaultClass) -> list[int]:
 
 def _row(items: Sequence[str], braces: str, target: Target) -> list[str]:
     """One row of a table, in braces, over as many lines as it needs."""
+    if not items:
+        return []
     words = [f"{item}," for item in items]
     words[0] = braces[0] + words[0]
     words[-1] = words[-1].rstrip(",") + ("," if braces == "()" and len(words) == 1 else "")

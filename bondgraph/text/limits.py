@@ -31,7 +31,7 @@ RUN_VALUES = 100_000_000  #: samples times signals of a simulated log, all of th
 
 # Logs and streams
 COLUMNS = 4_000  #: of a log
-RATE = 1_000_000_000  #: samples a second, and rad/s of a filter; and at least its inverse
+RATE = 100_000_000_000  #: samples a second, and rad/s of a filter; and at least its inverse
 LINE_BYTES = 1 << 20  #: of a line of samples
 
 # The live page

@@ -62,7 +62,8 @@ def test_values_from_the_command_line_come_before_those_of_the_scenario(
         ('inputs.U = "if(t > 0.02, sqrt(0.03 - t), 1)"', ("0.03", "`U`")),
         ('inputs.U = "1/0"', ("zero",)),
         ("inputs.V = 1", ("`V`", "`U`")),
-        ("sampling.rate = 1e12", ("samples",)),
+        ("sampling.rate = 1e11", ("samples",)),
+        ("sampling.rate = 1e12", ("rate",)),
         ("inputs.U = ", ("TOML",)),
     ],
 )

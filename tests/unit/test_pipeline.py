@@ -97,7 +97,7 @@ def test_another_rate_keeps_what_it_does_not_change(model: str) -> None:
 )  # fmt: skip
 def test_a_number_that_is_none_of_a_filter_is_refused(options: dict[str, float]) -> None:
     name = next(iter(options))
-    wrong = "a positive number" if name == "resolution" else "from 1e-09 to 1e"
+    wrong = "a positive number" if name == "resolution" else "from 1e-11 to 1e"
     with pytest.raises(ValueError, match=f"{name} must be {wrong}"):
         bondgraph.compile(text=_CIRCUIT, **options)
 
