@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
-    from bondgraph.views import Relations
+    from bondgraph.views import Relations, Signatures
 
 T = TypeVar("T")
 
@@ -429,7 +429,7 @@ class Compilation:
         return Derivations(self.graph, derive(residual, self.graph, shown))
 
     @cached_property
-    def signatures(self) -> SignatureMatrix:
+    def signatures(self) -> Signatures:
         """The fault signature matrix: which residual sees which fault.
 
         >>> import bondgraph
@@ -437,7 +437,9 @@ class Compilation:
         >>> matrix.signature("r1"), matrix.to_numpy().shape
         (('L', 'R', 'k', 'U', 'current', 'speed'), (9, 2))
         """
-        return self._shown[2]
+        from bondgraph.views import Signatures
+
+        return Signatures(*self._shown[2])
 
     @cached_property
     def mode_signatures(self) -> ModeSignatures:

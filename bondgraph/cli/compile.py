@@ -9,7 +9,15 @@ from argparse import ArgumentParser, Namespace
 from bondgraph import Compilation, Options
 from bondgraph.cli import console
 from bondgraph.cli.log_options import note
-from bondgraph.cli.options import bits, frequency, further, opened, read_tuning, realised
+from bondgraph.cli.options import (
+    bandwidth,
+    bits,
+    further,
+    opened,
+    read_tuning,
+    realised,
+    sample_rate,
+)
 from bondgraph.text.diagnostic import Trouble
 
 
@@ -24,14 +32,14 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--rate",
         metavar="HZ",
-        type=frequency,
+        type=sample_rate,
         default=None,
         help=f"samples a second that step is made for (default: {defaults.rate:g})",
     )
     parser.add_argument(
         "--bandwidth",
         metavar="RAD/S",
-        type=frequency,
+        type=bandwidth,
         default=None,
         help="bandwidth of the residual filter (default: chosen from the rate)",
     )

@@ -6,7 +6,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
-from bondgraph.cli.options import assigned, model_of, numbered, pace, positive
+from bondgraph.cli.options import assigned, check_units, model_of, numbered, pace, seconds
 from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
@@ -27,13 +27,15 @@ def arguments(parser: ArgumentParser) -> None:
                         help="the log, .csv or .parquet (default: scenario.csv)")  # fmt: skip
     parser.add_argument("--truth", metavar="FILE",
                         help="also write states and true values, without noise")  # fmt: skip
-    parser.add_argument("--duration", metavar="S", type=positive, default=None,
-                        help="seconds (default: as the scenario says, or 10)")  # fmt: skip
+    parser.add_argument("--duration", metavar="S", type=seconds, default=None,
+                        help="seconds, or with a unit (default: as the scenario says, or"
+                        " 10)")  # fmt: skip
     parser.add_argument("--seed", metavar="N", type=int, default=None,
                         help="seed of all that is drawn at random")  # fmt: skip
     numbered(parser)
     parser.add_argument("--input", metavar="NAME=VALUE", type=assigned, action="append",
-                        default=[], help="a constant input, in SI; may be repeated")  # fmt: skip
+                        default=[], help="a constant input, in SI or with a unit; may be"
+                        " repeated")  # fmt: skip
     parser.add_argument("--stream", action="store_true",
                         help="run without an end, and print the samples as lines of CSV while they"
                         " are taken")  # fmt: skip
@@ -123,10 +125,11 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
     named = [name for name, _ in args.set]
     parameters = {**chosen.parameters, **{name: numbers[name] for name in named}}
     modes = dict(chosen.modes)
+    check_units(graph, args.input)
     for name, value in args.input:
         _known(name, "input", [i.name for i in graph.inputs if not i.of])
         mode = any(i.name == name and i.mode for i in graph.inputs)
-        (modes if mode else inputs)[name] = Course.constant(value)
+        (modes if mode else inputs)[name] = Course.constant(float(value))
     driven = {c.input for c in chosen.controllers} & {name for name, _ in args.input}
     if driven:
         raise Trouble(f"`{min(driven)}` is driven by a controller of the scenario")
