@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from typing import TypedDict, Unpack
 
     from bondgraph.backends.decision import Tuned
+    from bondgraph.backends.write import Change
     from bondgraph.derivations import Derivations
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.syntax import File
     from bondgraph.passes.elimination.state_equations import Wanted
     from bondgraph.passes.lowering.lower import LowerOptions
+    from bondgraph.picture import Picture
     from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
     from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
     from bondgraph.runtime.diagnosis.parameter_fit import Fitted
@@ -373,6 +375,28 @@ class Compilation:
                 run.log.columns[item.name] = run.log.columns[item.name] + item.offset
         return run
 
+    def plot(
+        self, runs: Run | Mapping[str, Run], signals: Sequence[str] = (), title: str = ""
+    ) -> Picture:
+        """A picture of a run, or of several by label: a strip for each signal, a line for each run.
+
+        `signals` are columns of the log or of the truth (states, true values), without any all of
+        the log. A notebook shows the picture; `write(path)` makes a .png, .svg, .pdf or .html of
+        it. Raises KeyError for what is no signal, `Trouble` without matplotlib.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> run = c.simulate(bondgraph.Scenario("still", duration=0.1))
+        >>> c.plot({"at rest": run}, ["speed"])
+        <picture of speed: at rest>
+        """
+        from collections.abc import Mapping
+
+        from bondgraph.picture import Picture
+
+        found = runs if isinstance(runs, Mapping) else {"": runs}
+        return Picture(f"{self.graph.name}{title and f': {title}'}", found, tuple(signals))
+
     def with_biases(self, scenario: Scenario) -> Scenario:
         """A scenario whose instruments have the offsets of sensors (`Options`) as biases too."""
         from bondgraph.runtime.simulation.scenario import Instrument
@@ -383,6 +407,23 @@ class Compilation:
                 own = found.get(sensor.name, Instrument())
                 found[sensor.name] = own._replace(bias=own.bias + sensor.offset)
         return scenario._replace(instruments=found)
+
+    def changes(
+        self, folder: str | os.PathLike[str], targets: Sequence[str] | None = None
+    ) -> tuple[Change, ...]:
+        """What `write` would do below `folder`, file by file, without doing it.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> {change.what for change in c.changes("generated/dc_motor")}
+        {'same'}
+        """
+        from bondgraph.backends.write import changes
+
+        if not self.residuals:
+            return ()
+        own = self.artifacts if targets is None else self._emitted(tuple(targets))
+        return changes(own, folder)
 
     @cached_property
     def structure(self) -> StructuralModel:

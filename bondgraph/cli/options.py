@@ -192,13 +192,14 @@ def setting(text: str) -> tuple[str, str]:
     try:
         return name, repr(float(value))
     except ValueError:
-        return name, _quoted(value)
+        return name, quoted(value)
 
 
 setting.__name__ = "NAME=VALUE"
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
+    """A text as TOML has it."""
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
@@ -223,7 +224,7 @@ def model_of(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
         report = Report()
         sources.append(read(args.parameters, report))
         report.stop_on_error()
-    sources += [Source("--set", f"parameters.{_quoted(n)} = {v}") for n, v in args.set]
+    sources += [Source("--set", f"parameters.{quoted(n)} = {v}") for n, v in args.set]
     given: dict[str, float] = {}
     offsets: dict[str, float] = {}
     for source in filter(None, sources):
