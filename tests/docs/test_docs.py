@@ -17,33 +17,21 @@ from bondgraph.cli.summary import report
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.log_file import write_log
 from bondgraph.text.source import Source
-
-ROOT = Path(__file__).resolve().parents[2]
-PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("codegen/**/*.md")])
-_FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+from tests.docs.pages import FENCE, PAGES, ROOT, anchors, named, prose, target
 
 
-def anchors(page: Path) -> set[str]:
-    """The anchors that the headings of a page give."""
-    text = _FENCE.sub("", page.read_text(encoding="utf-8"))
-    headings = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
-    return {re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in headings}
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+@pytest.mark.parametrize("page", PAGES, ids=named)
 def test_links_lead_somewhere(page: Path) -> None:
-    text = _FENCE.sub("", page.read_text(encoding="utf-8"))
-    for target in re.findall(r"\]\(([^)\s]+)\)", text):
-        if re.match(r"\w+:", target):
+    for link in re.findall(r"\]\(([^)\s]+)\)", prose(page)):
+        if re.match(r"\w+:", link):
             continue
-        path, _, anchor = target.partition("#")
-        file = (page.parent / path).resolve() if path else page
-        assert file.exists(), f"{page.name}: {target}"
+        file, anchor = target(page, link)
+        assert file.exists(), f"{page.name}: {link}"
         if anchor and file.suffix == ".md":
-            assert anchor in anchors(file), f"{page.name}: {target}"
+            assert anchor in anchors(file), f"{page.name}: {link}"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+@pytest.mark.parametrize("page", PAGES, ids=named)
 def test_paths_that_are_named_exist(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     for path in re.findall(r"`((?:models|docs|bondgraph|codegen|tests)/[\w/.]*)`", text):
@@ -55,7 +43,7 @@ def test_the_way_to_the_controller(tmp_path: Path) -> None:
     (tmp_path / "models").symlink_to(ROOT / "models")
     env = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
     printed, told = "", []
-    for language, text in _FENCE.findall((ROOT / "docs" / "firmware.md").read_text()):
+    for language, text in FENCE.findall((ROOT / "docs" / "firmware.md").read_text()):
         if language == "toml":
             (tmp_path / "healthy.toml").write_text(text)
         elif language == "sh":
@@ -73,10 +61,10 @@ def complete_models() -> list[tuple[str, str]]:
     """Every block of a page that is a whole .bg file."""
     found = []
     for page in PAGES:
-        for language, text in _FENCE.findall(page.read_text(encoding="utf-8")):
+        for language, text in FENCE.findall(page.read_text(encoding="utf-8")):
             whole = text.startswith("bg 1\n") and text.count("{") == text.count("}")
             if language == "bg" and whole:
-                found.append((str(page.relative_to(ROOT)), text))
+                found.append((named(page), text))
     return found
 
 
@@ -89,7 +77,7 @@ def test_whole_models_in_the_documentation_compile(page: str, text: str) -> None
 
 def test_the_tour_keeps_its_promise() -> None:
     page = (ROOT / "docs" / "language.md").read_text(encoding="utf-8")
-    text = next(t for language, t in _FENCE.findall(page) if language == "bg")
+    text = next(t for language, t in FENCE.findall(page) if language == "bg")
     compilation = Compilation(Source("tour.bg", text))
     assert len(compilation.signatures.residuals) == 1
 
@@ -98,7 +86,7 @@ def test_the_grammar_in_the_manual_has_all_statements() -> None:
     from bondgraph.frontend.words import KEYWORDS
 
     page = (ROOT / "docs" / "language.md").read_text(encoding="utf-8")
-    grammar = next(t for language, t in _FENCE.findall(page) if language == "ebnf")
+    grammar = next(t for language, t in FENCE.findall(page) if language == "ebnf")
     for word in KEYWORDS:
         assert f'"{word}"' in grammar
 
@@ -111,7 +99,7 @@ def test_the_manual_lists_the_domains_with_their_units() -> None:
     assert sorted(listed) == sorted(DOMAINS)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+@pytest.mark.parametrize("page", PAGES, ids=named)
 def test_nothing_of_one_machine_is_written_down(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     assert not re.search(r"/(?:tmp|root|home|work)/", text)
@@ -129,7 +117,7 @@ def replaced(page: Path, old: str, new: str) -> None:
 
 def test_the_code_in_the_readme_is_what_the_robot_becomes(update: bool) -> None:
     page = ROOT / "README.md"
-    shown = next(t for lang, t in _FENCE.findall(page.read_text(encoding="utf-8")) if lang == "c")
+    shown = next(t for lang, t in FENCE.findall(page.read_text(encoding="utf-8")) if lang == "c")
     artifacts = bondgraph.compile(ROOT / "models" / "khepera.bg").artifacts
     code = next(a.text for a in artifacts if a.path.endswith("residuals.c"))
     start = code.index("    r[KHEPERA_R1] =")
@@ -146,7 +134,7 @@ def test_the_report_in_the_readme_is_what_is_printed(
 ) -> None:
     monkeypatch.setenv("COLUMNS", "100")
     page = ROOT / "README.md"
-    blocks = [text for _, text in _FENCE.findall(page.read_text(encoding="utf-8"))]
+    blocks = [text for _, text in FENCE.findall(page.read_text(encoding="utf-8"))]
     shown = next(text for text in blocks if text.startswith("$ make run\n"))
     lines = report(bondgraph.compile(ROOT / "models" / "khepera.bg"), [])
     second = next(n for n, line in enumerate(lines) if line.startswith("r2"))
@@ -164,7 +152,7 @@ def test_examples_in_python_run(page: str, tmp_path: Path) -> None:
     command = tmp_path / "bondgraph"
     command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m bondgraph "$@"\n')
     command.chmod(0o755)
-    for language, program in _FENCE.findall(text):
+    for language, program in FENCE.findall(text):
         if language == "python":
             done = subprocess.run(
                 [sys.executable, "-c", program],
@@ -208,7 +196,7 @@ def test_the_page_about_fleets_runs_and_shows_what_is_printed(
     for name, log in example.globs["runs"].items():
         write_log(log, f"runs/{name}.csv")
     Path("runs/press4.csv").write_text("t,U\n" + "".join(f"{k},6\n" for k in range(9)))
-    shown = next(t for _, t in _FENCE.findall(text) if t.startswith("$ bondgraph monitor"))
+    shown = next(t for _, t in FENCE.findall(text) if t.startswith("$ bondgraph monitor"))
     words = shown.splitlines()[0].split()[2:]
     assert main(words) == 0
     actual = f"{shown.splitlines()[0]}\n{capsys.readouterr().out}"
