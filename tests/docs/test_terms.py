@@ -26,7 +26,7 @@ FIRST = {
 def entries() -> list[tuple[str, str]]:
     """The terms of the glossary with their texts, in order."""
     text = GLOSSARY.read_text(encoding="utf-8")
-    return re.findall(r"^### ([^\n]+)\n\n(.*?)(?=^### |\Z)", text, re.MULTILINE | re.DOTALL)
+    return re.findall(r"^## ([^\n]+)\n\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)
 
 
 @pytest.mark.parametrize(("page", "words"), FIRST.items())
