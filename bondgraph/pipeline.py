@@ -215,7 +215,10 @@ class Compilation:
         from bondgraph.passes.elaboration.elaborate import elaborate
 
         own = self.syntax, self.source, self.model, self._load, self.report
-        found = self._stage(elaborate(*own, self.options.open_ports))
+        graph = elaborate(*own, self.options.open_ports)
+        if graph is None:
+            self._mend_units()
+        found = self._stage(graph)
         given, offsets = dict(self.options.parameters), dict(self.options.offsets)
         try:
             found = found.with_values(given) if given else found
@@ -830,6 +833,21 @@ class Compilation:
         if value is None:
             raise CompileError(tuple(self.report.diagnostics))
         return value
+
+    def _mend_units(self) -> None:
+        """Where units disagree, say which change of the text makes them agree."""
+        from bondgraph.frontend.parser import parse
+        from bondgraph.passes.elaboration.elaborate import elaborate
+        from bondgraph.passes.elaboration.unit_mends import CODE, unit_mends
+
+        def holds(text: str) -> bool:
+            report, source = Report(), Source(self.source.path, text)
+            file = parse(source, report)
+            if file is not None and not report.failed:
+                elaborate(file, source, self.model, self._load, report, self.options.open_ports)
+            return not any(d.code == CODE for d in report.diagnostics)
+
+        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, holds)
 
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
