@@ -215,7 +215,10 @@ class Compilation:
         from bondgraph.passes.elaboration.elaborate import elaborate
 
         own = self.syntax, self.source, self.model, self._load, self.report
-        found = self._stage(elaborate(*own, self.options.open_ports))
+        graph = elaborate(*own, self.options.open_ports)
+        if graph is None:
+            self._mend_units()
+        found = self._stage(graph)
         given, offsets = dict(self.options.parameters), dict(self.options.offsets)
         try:
             found = found.with_values(given) if given else found
@@ -831,13 +834,27 @@ class Compilation:
             raise CompileError(tuple(self.report.diagnostics))
         return value
 
+    def _mend_units(self) -> None:
+        """Where units disagree, say which change of the text makes them agree."""
+        from bondgraph.frontend.parser import parse
+        from bondgraph.passes.elaboration.elaborate import elaborate
+        from bondgraph.passes.elaboration.unit_mends import CODE, unit_mends
+
+        def holds(text: str) -> bool:
+            report, source = Report(), Source(self.source.path, text)
+            file = parse(source, report)
+            if file is not None and not report.failed:
+                elaborate(file, source, self.model, self._load, report, self.options.open_ports)
+            return not any(d.code == CODE for d in report.diagnostics)
+
+        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, holds)
+
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
         from bondgraph.frontend.parser import has_edition, parse
-        from bondgraph.frontend.read import read
 
         beside = os.path.join(os.path.dirname(origin.source.path), path)
-        source = read(beside, self.report, origin)
+        source = self._read(beside, origin)
         if source is None:
             return None
         if not has_edition(source):  # of a file that is no model, no line is shown
@@ -847,6 +864,12 @@ class Compilation:
                 " \"motor.bg\"`; `bondgraph check` on the file itself says more.")  # fmt: skip
             return None
         return parse(source, self.report)
+
+    def _read(self, path: str, origin: Span) -> Source | None:
+        """The text of an imported file; an editor has one that is not saved yet."""
+        from bondgraph.frontend.read import read
+
+        return read(path, self.report, origin)
 
 
 def compile(
