@@ -87,10 +87,10 @@ def _wrong(args: Namespace) -> str:
 
 def _serve(args: Namespace, made: Any) -> int:
     import asyncio
-    import socket
 
     from bondgraph.backends.live_page import live
-    from bondgraph.runtime.live.server import serve, token_for
+    from bondgraph.runtime.live.audience import Audience
+    from bondgraph.runtime.live.server import address_of, serve, token_for
     from bondgraph.runtime.live.session import Session
     from bondgraph.runtime.simulation.scenario import Scenario
 
@@ -123,11 +123,7 @@ def _serve(args: Namespace, made: Any) -> int:
     hello: dict[str, Any] = {"type": "hello"}
     files = live(machine.name, machine.doc, compilation.drawing(bare=True))
     token = token_for(made)
-    host, port = made.getsockname()[:2]
-    if host in ("0.0.0.0", "::"):
-        host = socket.gethostname()
-    name = f"[{host}]" if ":" in host else host
-    address = f"http://{name}:{port}/{token + '/' if token else ''}"
+    address = address_of(made, token)
 
     def ready() -> None:
         print(f"{machine.name}: {setup.what}; look at {address}, stop with ^C", flush=True)
@@ -136,7 +132,7 @@ def _serve(args: Namespace, made: Any) -> int:
 
             webbrowser.open(address)
 
-    asyncio.run(serve(made, files, hello, start, ready, token))
+    asyncio.run(serve(made, files, lambda: Audience(hello, start), ready, token))
     print("stopped")
     return 0
 

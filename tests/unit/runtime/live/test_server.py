@@ -20,6 +20,7 @@ from aiohttp.test_utils import TestClient, TestServer
 from bondgraph.cli import live as command
 from bondgraph.cli import usage
 from bondgraph.cli.main import main
+from bondgraph.runtime.live.audience import talk
 from bondgraph.runtime.live.hub import Hub
 from bondgraph.runtime.live.samples import Simulated
 from bondgraph.runtime.live.server import PortTaken, application, listening
@@ -93,7 +94,7 @@ def _served(
 ) -> None:
     async def run() -> None:
         hub, wishes = Hub({"type": "hello"}), []
-        app = application(FILES, hub, lambda wish, _: wishes.append(wish), token)
+        app = application(FILES, {"/ws": talk(hub, lambda wish, _: wishes.append(wish))}, token)
         async with TestClient(TestServer(app, host="127.0.0.1")) as client:
             await test(client, hub, wishes)
 
