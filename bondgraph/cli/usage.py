@@ -24,6 +24,7 @@ COMMANDS = {
     "fit": "learn the parameters of a machine from logs of it while it was healthy",
     "tune": "learn the limits of the residuals from healthy samples, and what shows with them",
     "live": "show a machine beside its virtual twin on a page, and let faults happen to the twin",
+    "edit": "write a model on a page that draws and derives it while you type",
     "draw": "draw a bond graph with half arrows and causal strokes",
     "report": "write all that is known of a model as one HTML page",
 }

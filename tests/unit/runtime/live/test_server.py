@@ -305,7 +305,7 @@ def test_faults_are_injected_refused_and_taken_back(tmp_path: Path) -> None:
 
 def test_sizes_are_in_the_units_of_the_model() -> None:
     volts = Target("U", "input", "mV", 1e-3, None)
-    fault = wish({"target": "U", "change": "+=", "value": 250}, rover_setup(), {"U": volts})
+    fault = wish({"target": "U", "change": "+=", "value": 250}, (), {"U": volts})
     assert not isinstance(fault, str)
     assert (fault.op, fault.value, fault.label) == ("+=", 0.25, "U + 250 mV")
     kinds = {t.name: (t.kind, t.unit, t.value) for t in command.targets(rover().graph)}
