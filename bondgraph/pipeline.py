@@ -834,10 +834,9 @@ class Compilation:
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
         from bondgraph.frontend.parser import has_edition, parse
-        from bondgraph.frontend.read import read
 
         beside = os.path.join(os.path.dirname(origin.source.path), path)
-        source = read(beside, self.report, origin)
+        source = self._read(beside, origin)
         if source is None:
             return None
         if not has_edition(source):  # of a file that is no model, no line is shown
@@ -847,6 +846,12 @@ class Compilation:
                 " \"motor.bg\"`; `bondgraph check` on the file itself says more.")  # fmt: skip
             return None
         return parse(source, self.report)
+
+    def _read(self, path: str, origin: Span) -> Source | None:
+        """The text of an imported file; an editor has one that is not saved yet."""
+        from bondgraph.frontend.read import read
+
+        return read(path, self.report, origin)
 
 
 def compile(

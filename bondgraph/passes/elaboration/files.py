@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from bondgraph.ir.syntax import (
     Chain,
@@ -167,8 +167,8 @@ def pick(
     if not own:
         fail(report, "no-model", "The file declares no model.", _edition(source),
              help="Write `model Name { ... }` after the line `bg 1`.")  # fmt: skip
-    used = {n.type for d in own for n in nodes_of(d.model.body) if n.type != d.model.name}
-    free = [d for d in own if d.model.name not in used]
+    tops = unused([d.model for d in own])
+    free = [d for d in own if d.model.name in tops]
     if not free:
         for definition in own:  # all are used by another: somewhere that is a cycle
             recursion(definition, report)
@@ -180,6 +180,13 @@ def pick(
              "which one is meant?", *[d.model.name_origin for d in free[:4]],
              help=f"Name it after the file: `{source.path}:{free[-1].model.name}`.")  # fmt: skip
     return free[0]
+
+
+def unused(models: Iterable[Model]) -> list[str]:
+    """The names of the models that no other one of them uses."""
+    models = list(models)
+    used = {n.type for m in models for n in nodes_of(m.body) if n.type != m.name}
+    return list(dict.fromkeys([m.name for m in models if m.name not in used]))
 
 
 def _edition(source: Source) -> Span:
