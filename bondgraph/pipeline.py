@@ -775,11 +775,12 @@ class Compilation:
     def _tuned(self) -> Tuned:
         """The limits of the tuning, for code."""
         from bondgraph.backends.decision import UNTUNED, Tuned
-        from bondgraph.runtime.diagnosis.cusum import on_board
 
         own = self.options.tuning
         if own is None:
             return UNTUNED
+        from bondgraph.runtime.diagnosis.cusum import on_board  # which NumPy comes with
+
         limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
         words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
         return Tuned(limits, words)
