@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from typing import TypedDict, Unpack
 
     from bondgraph.backends.decision import Tuned
+    from bondgraph.derivations import Derivations
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
     from bondgraph.ir.artifact import Artifact, BinaryArtifact
@@ -412,6 +413,23 @@ class Compilation:
         from bondgraph.views import Relations
 
         return Relations(*self._shown[1:])
+
+    def derivation(self, name: str) -> Derivations:
+        """How a residual came about, replayed with SymPy (docs/derivations.md); KeyError else.
+
+        Every step is done from the equations of the bond graph, in the order of the compiler.
+
+        >>> import bondgraph
+        >>> d = bondgraph.compile("models/dc_motor.bg").derivation("r1")
+        >>> d.complete, [step.move for step in d[0].steps][-3:]
+        (True, ['solve', 'differentiate', 'close'])
+        """
+        from bondgraph.derivations import Derivations
+        from bondgraph.passes.relation.derive import derive
+
+        shown = self.residuals[name].residual
+        residual = next(r for r in self._analysis[0].residuals if r.name == name)
+        return Derivations(self.graph, derive(residual, self.graph, shown))
 
     @cached_property
     def signatures(self) -> SignatureMatrix:
