@@ -9,7 +9,7 @@ from bondgraph.library.elements import KINDS as ELEMENTS
 from bondgraph.text.printable import printable
 
 _SCRIPTS = (
-    "main.js", "editor.js", "picture.js", "residuals.js", "signatures.js", "trial.js", "curves.js",
+    "main.js", "editor.js", "language.js", "picture.js", "residuals.js", "signatures.js", "trial.js", "curves.js",
     "panes.js", "dom.js", "vendored.js",
 )  # fmt: skip
 _LIGHT = (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import secrets
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bondgraph.cli.options import serving
@@ -60,6 +61,7 @@ def _serve(args: Namespace, made: Any) -> int:
     hello = {
         "file": name,
         "path": args.file,
+        "uri": Path(args.file).resolve().as_uri(),
         "words": words(),
         "starts": [s._asdict() for s in starts()],
     }

@@ -4,6 +4,8 @@ import { $, make } from "./dom.js";
 
 const nonce = document.querySelector("meta[name=nonce]").content;
 
+const SEVERITY = [null, "error", "warning", "info", "hint"];
+
 // Colours of elements are those of the drawing.
 const looks = {};
 for (const name of ["source", "inertia", "capacity", "resistor", "detector", "ink"]) looks[name] = cm.Tag.define();
@@ -82,7 +84,6 @@ export class Editor {
   // `typed` is told of every change, `moved` the line where the cursor is.
   constructor(words, typed, moved) {
     this.more = new cm.Compartment();
-    this.problems = [];
     this.view = new cm.EditorView({
       parent: $("editor"),
       state: cm.EditorState.create({
@@ -134,7 +135,10 @@ export class Editor {
 
   go(place) {
     const [line, column, endLine, endColumn] = place;
-    const from = this.offset(line, column), to = this.offset(endLine, endColumn);
+    this.select(this.offset(line, column), this.offset(endLine, endColumn));
+  }
+
+  select(from, to) {
     this.view.dispatch({ selection: { anchor: from, head: to }, effects: cm.EditorView.scrollIntoView(from, { y: "center" }) });
     this.view.focus();
   }
@@ -145,40 +149,40 @@ export class Editor {
     this.view.dispatch({ effects: setLines.of(starts) });
   }
 
+  // What else belongs to the editor: the language server.
+  plug(extension) { this.view.dispatch({ effects: this.more.reconfigure(extension) }); }
+
+  // A position as editors tell it: lines from 0, characters in UTF-16.
+  at({ line, character }) {
+    const doc = this.view.state.doc, found = doc.line(Math.min(line + 1, doc.lines));
+    return Math.min(found.from + character, found.to);
+  }
+
   // Findings as `check` has them: marked in the text, and listed below it.
-  tell(diagnostics, file) {
-    const own = (label) => label.path === file;
+  tell(diagnostics, uri) {
     const marks = [];
     for (const d of diagnostics) {
-      d.labels.filter(own).forEach((label, k) => {
-        const from = this.offset(label.line, label.column), to = this.offset(label.end_line, label.end_column);
-        const first = d.labels[0] === label;
-        marks.push({
-          from: Math.min(from, to), to: Math.max(from, to), severity: first ? d.severity : "hint", markClass: first ? "" : "cm-also",
-          message: first ? d.message : label.text || d.message,
-          renderMessage: () => first
-            ? make("div", { class: "finding" }, make("p", {}, d.message), label.text ? make("p", { class: "also" }, `here: ${label.text}`) : null, d.help ? make("p", { class: "help" }, d.help) : null, make("p", { class: "code" }, d.code))
-            : make("div", { class: "finding" }, make("p", {}, label.text || d.message), make("p", { class: "code" }, d.code)),
-        });
-      });
+      const [message, ...help] = d.message.split("\n"), code = make("p", { class: "code" }, String(d.code ?? ""));
+      const mark = (range, severity, markClass, text, ...more) => marks.push({ from: this.at(range.start), to: this.at(range.end), severity, markClass, message: text, renderMessage: () => make("div", { class: "finding" }, make("p", {}, text), ...more, code.cloneNode(true)) });
+      mark(d.range, SEVERITY[d.severity], "", message, help.length ? make("p", { class: "help" }, help.join("\n")) : null);
+      for (const also of d.relatedInformation || []) if (also.location.uri === uri) mark(also.location.range, "hint", "cm-also", also.message === "here" ? message : also.message);
     }
     marks.sort((a, b) => a.from - b.from || a.to - b.to);
     this.view.dispatch(cm.setDiagnostics(this.view.state, marks));
-    this.list(diagnostics, own);
+    this.list(diagnostics);
   }
 
-  list(diagnostics, own) {
-    const count = (severity) => diagnostics.filter((d) => d.severity === severity).length;
+  list(diagnostics) {
+    const count = (severity) => diagnostics.filter((d) => SEVERITY[d.severity] === severity).length;
     const words = [["error", "error"], ["warning", "warning"], ["info", "note"]].map(([s, w]) => [count(s), w]).filter(([n]) => n).map(([n, w]) => `${n} ${w}${n > 1 ? "s" : ""}`);
     const box = $("problems");
     box.dataset.worst = count("error") ? "error" : count("warning") ? "warning" : words.length ? "info" : "none";
     box.querySelector(".sum").textContent = words.length ? words.join(", ") : "no findings";
     box.querySelector("ul").replaceChildren(...diagnostics.map((d) => {
-      const label = d.labels[0], here = label && own(label);
-      const where = !label ? "" : here ? `line ${label.line}` : `${label.path}, line ${label.line}`;
-      const button = make("button", { type: "button", class: `plain ${d.severity}`, onclick: () => here && this.go([label.line, label.column, label.end_line, label.end_column]) },
-        make("span", { class: "where" }, where), make("span", { class: "what" }, d.message), d.help ? make("span", { class: "help" }, d.help) : null);
-      return make("li", {}, button);
+      const [message, ...help] = d.message.split("\n");
+      const go = () => { this.select(this.at(d.range.start), this.at(d.range.end)); };
+      return make("li", {}, make("button", { type: "button", class: `plain ${SEVERITY[d.severity]}`, onclick: go },
+        make("span", { class: "where" }, `line ${d.range.start.line + 1}`), make("span", { class: "what" }, message), help.length ? make("span", { class: "help" }, help.join("\n")) : null));
     }));
   }
 }

@@ -1,13 +1,14 @@
 // The page: what is typed goes to the server, what it finds goes into the drawing, tables and curves.
 import { $, make } from "./dom.js";
 import { Editor } from "./editor.js";
+import { LanguageServer } from "./language.js";
 import * as panes from "./panes.js";
 import { Picture } from "./picture.js";
 import * as residuals from "./residuals.js";
 import * as signatures from "./signatures.js";
 import { Trial } from "./trial.js";
 
-let hello = null, socket = null, tries = 0, editor = null;
+let hello = null, socket = null, tries = 0, editor = null, server = null;
 let version = 0, looked = 0, answered = 0, digest = "", saved = "", derived = null, sound = false;
 let suspects = {}, pointed = {};
 const times = []; // ms from a key to its drawing, for who asks
@@ -69,7 +70,6 @@ const heard = {
     picture.stale(found.svg === null);
     if (began.has(found.version)) { times.push(performance.now() - began.get(found.version)); began.clear(); }
     sound = found.sound;
-    if (found.version === version) editor.tell(found.diagnostics, hello.path);
     $("sum").textContent = found.sound ? found.message : "";
     models(found.models, found.model);
     document.body.dataset.sound = String(found.sound);
@@ -78,7 +78,7 @@ const heard = {
     relight();
     if (looked < version) look();
   },
-  findings(found) {
+  derived(found) {
     if (found.version !== version) return;
     derived = found;
     fade(false);
@@ -107,7 +107,6 @@ const heard = {
   },
   unsaved(message) {
     notice(`Not saved: ${message.why}`);
-    if (message.diagnostics) editor.tell(message.diagnostics, hello.path);
   },
   conflict(message) { other(message, "Not saved: another program has changed the file meanwhile."); },
   disk(message) {
@@ -132,11 +131,12 @@ function other(message, words) {
 
 function begin() {
   picture.stale(false);
-  editor = new Editor(hello.words, typed, relight);
-  [saved, digest] = [hello.text, hello.digest];
-  editor.replace(hello.text);
   let kept = null;
   try { kept = JSON.parse(localStorage.getItem(draft())); } catch { /* private, or damaged */ }
+  editor = new Editor(hello.words, typed, relight);
+  server = new LanguageServer(editor, hello.uri, (found, uri) => editor.tell(found, uri));
+  [saved, digest] = [hello.text, hello.digest];
+  editor.replace(hello.text);
   if (kept && kept.digest === digest && kept.text !== saved && typeof kept.text === "string") {
     editor.replace(kept.text);
     notice("This is the text of last time, which was not saved.", ["Take what is on the disk", () => { editor.replace(saved); notice(""); }]);
@@ -184,6 +184,7 @@ function typed() {
 function look() {
   if (looked > answered && socket?.readyState === 1) return;
   looked = version;
+  server?.sync();
   send({ do: "look", version, text: editor.text, model: $("model").dataset.chosen ? $("model").value : "", derivative: document.querySelector("input[name=causality]:checked").value === "derivative" });
 }
 

@@ -185,7 +185,7 @@ export class Picture {
     if (event.key === "+" || event.key === "=") { this.zoom(1.25); return; }
     if (event.key === "-") { this.zoom(0.8); return; }
     if (event.key === "0") { this.fit(); return; }
-    if (event.key === "Enter" && this.at) { const place = this.place(this.at); if (Array.isArray(place)) { this.hide(); this.go(place); } return; }
+    if (event.key === "Enter" && this.at) { event.preventDefault(); const place = this.place(this.at); if (Array.isArray(place)) { this.hide(); this.go(place); } return; }
     if (!way || !this.by?.size) return;
     event.preventDefault();
     const where = (e) => [Number(e.getAttribute("x")), Number(e.getAttribute("y"))];

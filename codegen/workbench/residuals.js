@@ -7,7 +7,7 @@ const panel = $("residuals");
 export function show(found, { light, chip }) {
   $("tab-residuals").querySelector(".count").textContent = found.relations?.length || "";
   if (found.status === "wrong" || !found.relations?.length) {
-    panel.replaceChildren(make("p", { class: "empty" }, found.message || "There are no residuals."));
+    panel.replaceChildren(make("p", { class: "empty" }, found.message || "There are no residuals."), make("p", { class: "empty help" }, found.help || ""));
     return;
   }
   const parts = found.relations.map((relation) => article(relation, light, chip));

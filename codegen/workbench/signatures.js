@@ -41,7 +41,7 @@ function keys(event, fault, inject) {
   const rows = [...panel.querySelectorAll("tr[data-fault]")], at = rows.indexOf(event.currentTarget);
   const to = { ArrowDown: at + 1, ArrowUp: at - 1 }[event.key];
   if (to !== undefined) { event.preventDefault(); rows[to]?.focus(); }
-  if (event.key === "Enter" && inject) inject(fault);
+  if (event.key === "Enter" && inject) { event.preventDefault(); inject(fault); }
 }
 
 // The elements that a fault is a fault of.

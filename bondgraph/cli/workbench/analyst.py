@@ -18,13 +18,13 @@ from threading import Event, Lock, Thread
 from typing import Any
 
 from bondgraph.cli.workbench.sketch import Job, sketch
-from bondgraph.cli.workbench.stages import stages
+from bondgraph.cli.workbench.staged import staged
 
 Say = Callable[[dict[str, Any]], None]
 
 _SKETCH = 20.0  # s that a drawing may take
 _SOON = 0.1  # s between two looks whether processes can be had
-_LONGEST = 300.0  # s that the findings may take, or a run
+_LONGEST = 300.0  # s that residuals may take, or a run
 
 
 class Processes:
@@ -53,7 +53,7 @@ class Processes:
     def start(self, job: Job) -> tuple[BaseProcess, Connection]:
         """A process for a text, and what it says."""
         here, there = self._context.Pipe()
-        process: BaseProcess = self._context.Process(target=stages, args=(there, job), daemon=True)
+        process: BaseProcess = self._context.Process(target=staged, args=(there, job), daemon=True)
         process.start()
         there.close()
         return process, here

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from threading import Event, Lock
 from typing import Any
 
+from bondgraph.cli.workbench.language_talk import language_talk
 from bondgraph.frontend.formatter import format_text
 from bondgraph.frontend.read import decode
 from bondgraph.runtime.live.guests import Talk
@@ -94,10 +95,10 @@ class Bench:
         self.disk = disk
         self.desks: set[Any] = set()
         self._stop = Event()
+        size = 6 * limits.EDIT_BYTES  # JSON takes up to six letters for one
         self.talks = {
-            "/ws": Talk(
-                lambda: desk(self), limits.EDITORS, 6 * limits.EDIT_BYTES, limits.KEYS_A_SECOND
-            )
+            "/ws": Talk(lambda: desk(self), limits.EDITORS, size, limits.KEYS_A_SECOND),
+            "/lsp": language_talk(),
         }
 
     def run(self) -> None:

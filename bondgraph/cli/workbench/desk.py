@@ -12,7 +12,6 @@ from bondgraph.cli.workbench.sketch import Job
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.limits import EDIT_BYTES
 from bondgraph.text.printable import json_text, printable_values
-from bondgraph.text.render import as_json
 
 
 class Desk:
@@ -88,8 +87,7 @@ class Desk:
         try:
             found = await asyncio.to_thread(disk.save, text, seen)
         except CompileError as error:
-            self._put({"type": "unsaved", "why": str(error),
-                       "diagnostics": as_json(error.diagnostics)})  # fmt: skip
+            self._put({"type": "unsaved", "why": str(error)})
         except OSError as error:
             why = f"{error.strerror or error}: {error.filename or disk.path}"
             self._put({"type": "unsaved", "why": why})

@@ -1,13 +1,12 @@
-"""What is told of a text at every key: the findings of `check`, the drawing, and places."""
+"""What is drawn of a text at every key, and from where in the text it comes."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from bondgraph import Compilation, compile
-from bondgraph.text.diagnostic import CompileError, Diagnostic
+from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.numerals import plural
-from bondgraph.text.render import as_json
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -34,12 +33,12 @@ def sketch(job: Job) -> dict[str, Any]:
     """
     found: dict[str, Any] = {
         "type": "sketch", "version": job.version, "sound": False, "message": "", "models": [],
-        "svg": None, "nodes": {}, "bonds": [], "diagnostics": [],
+        "svg": None, "nodes": {}, "bonds": [],
     }  # fmt: skip
     try:
         compilation = opened(job, open_ports=True)
     except CompileError as error:
-        return found | {"message": str(error), "diagnostics": as_json(error.diagnostics)}
+        return found | {"message": str(error)}
     try:
         found["models"] = [model.name for model in compilation.syntax.models]
         graph = compilation.graph
@@ -55,8 +54,7 @@ def sketch(job: Job) -> dict[str, Any]:
         found |= {"sound": True, "message": _sizes(compilation)}
     except CompileError as error:
         found["message"] = str(error)
-    findings: tuple[Diagnostic, ...] = tuple(compilation.report.diagnostics)
-    return found | {"diagnostics": as_json(findings)}
+    return found
 
 
 def opened(job: Job, **options: Any) -> Compilation:

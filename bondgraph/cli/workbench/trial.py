@@ -12,6 +12,7 @@ from bondgraph import Compilation
 from bondgraph.backends.report.episode import Array, Episode, Trace, envelope
 from bondgraph.cli.live import targets
 from bondgraph.cli.reporting.scenarios import Watched, at_rate, episode, watched
+from bondgraph.cli.workbench.derived import helping
 from bondgraph.runtime.live.messages import short
 from bondgraph.runtime.live.setup import wish
 from bondgraph.runtime.monitoring.verdict import described
@@ -43,9 +44,7 @@ def trial(
         rated = at_rate(compilation, scenario)
         seen = watched(rated, run)
     except CompileError as error:
-        first = next((d for d in error.diagnostics if d.severity == "error"), None)
-        help = f" {first.help}" if first is not None and first.help else ""
-        return found | {"message": f"{error}{help}"}
+        return found | {"message": f"{error} {helping(error)}".rstrip()}
     except KeyError as error:
         return found | {"message": f"`{error.args[0]}` has no value: give it one beside its slider"}
     except (Trouble, SimulationError) as error:

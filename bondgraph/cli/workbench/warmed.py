@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import gc
 
-from bondgraph.cli.workbench.findings import findings
+from bondgraph.cli.workbench.derived import derived
 from bondgraph.cli.workbench.sketch import Job, opened, sketch
-from bondgraph.cli.workbench.stages import stages
+from bondgraph.cli.workbench.staged import staged
 from bondgraph.runtime import threads
 
-__all__ = ["stages"]
+__all__ = ["staged"]
 
 _MODEL = """\
 bg 1
@@ -43,6 +43,6 @@ _JOB = Job(0, "warm.bg", _MODEL)
 for _derivative in (False, True):
     sketch(_JOB._replace(derivative=_derivative))
 _compilation = opened(_JOB)
-findings(_compilation, 0)
+derived(_compilation, 0)
 gc.collect()
 gc.freeze()  # it is not looked through for garbage in each process anew

@@ -50,6 +50,10 @@ class Workbench(Page):
 
     # ------------------------------------------------------------------------ a person
 
+    def write(self) -> None:
+        """Have the cursor in the text."""
+        self.tab.run("document.querySelector('.cm-content').focus()")
+
     def type(self, text: str) -> None:
         """Press the keys of a text, one after the other."""
         for letter in text:

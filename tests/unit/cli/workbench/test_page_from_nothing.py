@@ -82,7 +82,7 @@ def test_an_injected_fault_fires_the_residual_and_lights_the_row(page: Workbench
 
 
 def test_what_is_saved_is_what_the_formatter_writes(page: Workbench) -> None:
-    page.push(".cm-content")
+    page.write()
     page.press("s", control=True)
     page.until("document.querySelector('#dirty').hidden")
     text = page.file.read_bytes()

@@ -8,7 +8,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from bondgraph import Compilation
-from bondgraph.cli.workbench.findings import findings
+from bondgraph.cli.workbench.derived import derived, helping
 from bondgraph.cli.workbench.sketch import Job, opened, sketch
 from bondgraph.cli.workbench.trial import trial
 from bondgraph.text.diagnostic import CompileError
@@ -21,8 +21,8 @@ class _Newer(Exception):
     """Something newer is asked for."""
 
 
-def stages(pipe: Connection, job: Job) -> None:
-    """Send the sketch of the text, then its findings, then the runs that are asked for.
+def staged(pipe: Connection, job: Job) -> None:
+    """Send the sketch of the text, then what is derived, then the runs that are asked for.
 
     Asked for are settings of a run; only the newest of them counts. Ends with the pipe.
     """
@@ -36,10 +36,10 @@ def stages(pipe: Connection, job: Job) -> None:
         pipe.poll(_REST)
         try:
             compilation = opened(job)
-            pipe.send(findings(compilation, job.version))
+            pipe.send(derived(compilation, job.version))
         except CompileError as error:
-            wrong = {"type": "findings", "version": job.version, "status": "wrong"}
-            pipe.send(wrong | {"message": str(error)})
+            wrong = {"type": "derived", "version": job.version, "status": "wrong"}
+            pipe.send(wrong | {"message": str(error), "help": helping(error)})
             return
         while True:
             _run(pipe, compilation, job.version)

@@ -15,22 +15,21 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import Residual
 from bondgraph.text.diagnostic import CompileError
-from bondgraph.text.render import as_json
 
 #: What a source of this unit gives in a machine of ordinary size, to begin with.
 _USUAL = {"V": "6", "N": "10", "N.m": "0.01", "rad/s": "10", "m/s": "0.1", "Pa": "1e5",
           "m^3/s": "1e-4", "K": "20", "W": "100", "W/K": "0.3"}  # fmt: skip
 
 
-def findings(compilation: Compilation, version: int) -> dict[str, Any]:
+def derived(compilation: Compilation, version: int) -> dict[str, Any]:
     """The message for the page; `status` is ok, no_arr, or wrong with the reason as `message`."""
-    found: dict[str, Any] = {"type": "findings", "version": version, "status": "wrong"}
+    found: dict[str, Any] = {"type": "derived", "version": version, "status": "wrong"}
     try:
         _ = compilation.signatures
         _ = compilation.verification
         program = compilation.program if compilation.residuals else None
     except CompileError as error:
-        return found | {"message": str(error), "diagnostics": as_json(error.diagnostics)}
+        return found | {"message": str(error), "help": helping(error)}
     graph = compilation.graph
     names = [x.name for items in (graph.values, graph.inputs, graph.sensors) for x in items]
     names += [v.symbol.name for e in compilation.equations.equations for v in e.variables]
@@ -38,7 +37,6 @@ def findings(compilation: Compilation, version: int) -> dict[str, Any]:
     return found | {
         "status": "ok" if compilation.residuals else "no_arr",
         "message": message(compilation),
-        "diagnostics": as_json(tuple(compilation.report.diagnostics)),
         "relations": list(_relations(compilation, typesetter, program)),
         "missing": [list(pair) for pair in missing(compilation)],
         "signatures": _plain(matrix(compilation, program)),
@@ -48,6 +46,11 @@ def findings(compilation: Compilation, version: int) -> dict[str, Any]:
         "docs": {x.name: x.doc for items in (graph.values, graph.inputs, graph.sensors)
                  for x in items if x.doc},
     }
+
+
+def helping(error: CompileError) -> str:
+    """What to do about the first thing that is wrong."""
+    return next((d.help for d in error.diagnostics if d.severity == "error"), "")
 
 
 def _relations(
