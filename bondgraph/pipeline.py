@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from bondgraph.views import Relations
 
 T = TypeVar("T")
+Own = TypeVar("Own", bound="Compilation")
 
 #: What a step may be made of, see `Options`: in one form, or observers where they are named.
 Form = Literal["derivative", "observer"] | tuple[str, ...]
@@ -195,6 +196,16 @@ class Compilation:
         names in their code.
         """
         return self._again(self.options._replace(form=form))
+
+    def of(self, model: str) -> Compilation:
+        """Another model of the same file, which is not read again.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/khepera.bg", open_ports=True)
+        >>> c.of("Gear").graph.name
+        'Gear'
+        """
+        return self._sharing(Compilation(self.source, model, self.options))
 
     # ------------------------------------------------------------ the stages, in order
 
@@ -766,6 +777,11 @@ class Compilation:
         return "\n".join(parts)
 
     # ------------------------------------------------------------------------- helpers
+
+    def _sharing(self, other: Own) -> Own:
+        """Another compilation of the same text, with its tree."""
+        vars(other).update(syntax=self.syntax)
+        return other
 
     def _again(self, options: Options) -> Compilation:
         """With options that leave the relations what they are, and all that is known of these."""
