@@ -24,7 +24,9 @@ COMMANDS = {
     "fit": "identify the parameters of a machine from logs of its healthy operation",
     "tune": "set thresholds for a false-alarm rate from healthy samples; tell what shows then",
     "live": "show a machine beside its virtual twin on a page, and let faults happen to the twin",
+    "edit": "write a model on a page that draws and derives it while you type",
     "draw": "draw a bond graph with half arrows and causal strokes",
+    "lsp": "answer an editor: findings, completion, hover and more while a model is written",
     "report": "write all that is known of a model as one HTML page",
 }
 

@@ -8,6 +8,7 @@ pass more (Griewank and Walther, 2008, ch. 3).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from fractions import Fraction
 from random import Random
 from typing import Any, NamedTuple, Protocol
 
@@ -16,7 +17,7 @@ from bondgraph.exact.signal_algebra import Algebra, Exponentials, Mixed, Taylor,
 from bondgraph.field.balls import zero_of
 from bondgraph.field.numbers import Number, Numbers, Undefined
 from bondgraph.field.series import Series
-from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Rational, Symbol, topological
 
 
 class Assignment(Protocol):
@@ -106,8 +107,7 @@ def _numbers(roots: tuple[Expr, ...], sample: Assignment) -> dict[Expr, Number] 
             if node.op is Op.ADD:
                 total = 0
                 for c, a in zip(node.coefficients, node.args, strict=True):
-                    weight = c.numerator if c.denominator == 1 else numbers.fraction(c)
-                    total += weight * values[a]
+                    total += weighed(numbers, c) * values[a]
             elif node.op is Op.MUL:
                 total = 1
                 for a, e in zip(node.args, node.exponents, strict=True):
@@ -120,6 +120,11 @@ def _numbers(roots: tuple[Expr, ...], sample: Assignment) -> dict[Expr, Number] 
     except Undefined:
         return None
     return values
+
+
+def weighed(numbers: Numbers, coefficient: Rational) -> Number:
+    """A rational number as one of these; a whole one stays an int, which multiplies faster."""
+    return coefficient if type(coefficient) is int else numbers.fraction(Fraction(coefficient))
 
 
 def _power(numbers: Numbers, x: Number, exponent: int) -> Number:
@@ -140,8 +145,7 @@ def _number_slopes(
         out[node] = adjoint
         if node.op is Op.ADD:
             for c, a in zip(node.coefficients, node.args, strict=True):
-                part = (c.numerator if c.denominator == 1 else numbers.fraction(c)) * adjoint
-                adjoints[a] = adjoints.get(a, 0) + part
+                adjoints[a] = adjoints.get(a, 0) + weighed(numbers, c) * adjoint
         elif node.op is Op.MUL:
             for a, e in zip(node.args, node.exponents, strict=True):
                 slope = adjoint if e == 1 else adjoint * e * _power(numbers, values[a], e - 1)
@@ -237,15 +241,10 @@ def node_value(
     """The value of one node from those of its arguments."""
     op = node.op
     if op is Op.ADD:
-        fraction = algebra.numbers.fraction
-        terms = [
-            (c.numerator if c.denominator == 1 else fraction(c), values[a])
-            for c, a in zip(node.coefficients, node.args, strict=True)
-        ]
-        return algebra.combine(terms, n)
+        numbers = algebra.numbers
+        return algebra.combine([(weighed(numbers, c), values[a]) for c, a in node.terms], n)
     if op is Op.MUL:
-        factors = [(values[a], e) for a, e in zip(node.args, node.exponents, strict=True)]
-        return algebra.product(factors, n)
+        return algebra.product([(values[a], e) for a, e in node.factors], n)
     if op is Op.SYM:
         return sample.value(node)
     if op is Op.NUM:
@@ -299,8 +298,7 @@ def slopes(
     if jumps and node.op is Op.FN and node.name == "sign":
         return [(args[0], algebra.number(_JUMP))]
     if node.op is Op.ADD:
-        numbers = [algebra.number(algebra.numbers.fraction(c)) for c in node.coefficients]
-        return list(zip(args, numbers, strict=True))
+        return [(a, algebra.number(weighed(algebra.numbers, c))) for c, a in node.terms]
     if node.op is Op.MUL:
         out = []
         for at, (a, e) in enumerate(zip(args, node.exponents, strict=True)):

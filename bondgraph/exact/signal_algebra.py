@@ -248,12 +248,16 @@ class Impulse(NamedTuple):
     leading: Series
 
 
+_NONE: Series = []
+
+
 class Exponentials:
     """Exponentials e^(d s t) with one random s: the derivative is a multiplication by d s.
 
     For plants and residuals linear in their signals, in time independent of the order. Changes
     are taken as e^(sigma t) with a second random number, so that a parameter is a function of
-    time for the adjoints. `terms` leading coefficients are carried to find the order.
+    time for the adjoints. `terms` leading coefficients are carried to find the order; without any
+    the order found is as high as it can be.
     """
 
     def __init__(self, numbers: Numbers, s: Number, sigma: Number, terms: int = 3) -> None:
@@ -340,12 +344,14 @@ class Exponentials:
 
     def seed(self, x: Number) -> Impulse:
         """The adjoint of the result, times a number."""
-        return Impulse(x, x, 0, 0, [x])
+        return Impulse(x, x, 0, 0, [x] if self.terms else _NONE)
 
     def join(self, a: Impulse, b: Impulse) -> Impulse:
         """The sum of two adjoints."""
         if a.degree < b.degree:
             a, b = b, a
+        if not self.terms:
+            return Impulse(a.value + b.value, a.still + b.still, a.degree, 0, _NONE)
         leading = series.add(a.leading, [0] * (a.degree - b.degree) + b.leading)
         degree, floor = a.degree, max(a.floor, b.floor)
         while leading and not leading[0]:
@@ -364,13 +370,16 @@ class Exponentials:
         """The adjoint of an argument."""
         c = slope.amplitude
         value, still, degree, floor, leading = adjoint
-        leading = series.scale(c, leading)
+        if leading:
+            leading = series.scale(c, leading)
         return Impulse(value * c, still * c, degree, floor, leading)
 
     def back_der(self, adjoint: Impulse, argument: Exponential) -> Impulse:
         """The adjoint of what was differentiated."""
         own = argument.degree * self.s
         value, still, degree, floor, leading = adjoint
+        if not self.terms:
+            return Impulse(value * (self.sigma + own), still * own, degree + 1, 0, _NONE)
         # times (sigma + own); the lowest coefficient is complete only if nothing was cut off
         leading = series.add([*leading, 0], [0, *series.scale(own, leading)])
         floor = max(floor + 1 if floor else 0, degree + 2 - self.terms)
@@ -388,6 +397,8 @@ class Exponentials:
 
     def order(self, adjoint: Impulse) -> int:
         """Raises `Mixed` when more leading coefficients cancel than are carried."""
+        if not self.terms:
+            return adjoint.degree
         for k, x in enumerate(adjoint.leading):
             if x:
                 return adjoint.degree - k

@@ -9,7 +9,7 @@ from typing import Final
 from bondgraph.frontend.cursor import Cursor, SyntaxProblem
 from bondgraph.frontend.words import NOT_UNITS, RESERVED, say
 from bondgraph.ir import syntax
-from bondgraph.text.diagnostic import Label
+from bondgraph.text.diagnostic import Label, replacing
 from bondgraph.text.limits import BRACKETS, DIGITS, OPERATORS
 from bondgraph.text.source import Span
 
@@ -218,7 +218,7 @@ class Expressions(Cursor):
                     Label(self.word_span(opening), "opened here"),
                     Label(self.word_span(at), f"{wanted} expected before this"),
                 ),
-                f"Close it with `{bracket}`.",
+                replacing(self.end_of(at - 1), bracket, f"Close it with `{bracket}`."),
                 at,
             )
         here = say(self.words[at])

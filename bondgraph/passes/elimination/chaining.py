@@ -397,7 +397,9 @@ class Chain:
             if found is None:
                 missing.append(initial_value_needed(equation, expr, steps))
             elif found.expr is not self.pool.zero:
-                closings.append(Closing(equation, found.expr, steps, found.order, found.raw))
+                loop = tuple([self.system.equations[r] for r in rows[:-1]])
+                own = equation, found.expr, steps, found.order, found.raw
+                closings.append(Closing(*own, loop=loop))
         unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
         unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
         for rows, about in self.loops.lost:
