@@ -8,6 +8,7 @@ A warning of Sphinx, a link that leads nowhere or a file of another host is an e
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import sys
@@ -54,6 +55,7 @@ INTERFACE = {
 
 def main() -> int:
     """Stage the pages, build those that have changed, and check what was built."""
+    os.environ["COLUMNS"] = "88"  # of what commands would print, as wide as a page is
     Stage().all()
     cache = OUT / "cache"
     failed = sphinx(["-b", "html", "-W", "--keep-going", "-q", "-j", "auto", "-c", str(HERE),
@@ -131,8 +133,9 @@ class Stage:
         made = {"made:gallery": "models/gallery.md", "made:interface": "interface.md",
                 "made:diagnostics": "diagnostics.md"}  # fmt: skip
         made["README.md"] = "self"
-        pages = [page.replace(path(page), made.get(path(page), path(page))) for page in part["pages"]]
-        return menu(part["title"], pages)
+        entries = part["pages"]
+        entries = [e.replace(path(e), made.get(path(e), path(e))) for e in entries]
+        return menu(part["title"], entries)
 
     def links(self, page: Path) -> str:
         """The text of a page, its links led to where the site has what they mean."""

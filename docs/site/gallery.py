@@ -33,7 +33,8 @@ def page(model: Path) -> dict[str, str]:
             "## Bond graph in preferred derivative causality, sensors dualised", "",
             f"![{name}, preferred derivative causality](pictures/{name}_derivative.svg)",
             "", "## ARRs and fault signatures", "", *_formulas(c),
-            "```text", *report(c, []), "```", "", "## The model", "", "```bg", model.read_text(encoding="utf-8").rstrip(), "```", "",
+            "```text", *report(c, []), "```", "",
+            "## The model", "", "```bg", model.read_text(encoding="utf-8").rstrip(), "```", "",
         ]
     )  # fmt: skip
     return {

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import doctest
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 import bondgraph
-from bondgraph.cli.main import main
 from bondgraph.cli.summary import report
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.log_file import write_log
 from bondgraph.text.source import Source
 from tests.docs.pages import FENCE, PAGES, ROOT, anchors, named, prose, target
 
@@ -36,25 +30,6 @@ def test_paths_that_are_named_exist(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     for path in re.findall(r"`((?:models|docs|bondgraph|codegen|tests)/[\w/.]*)`", text):
         assert (ROOT / path).exists(), f"{page.name}: {path}"
-
-
-def test_the_way_to_the_controller(tmp_path: Path) -> None:
-    """The commands of firmware.md, in order, with what they print."""
-    (tmp_path / "models").symlink_to(ROOT / "models")
-    env = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
-    printed, told = "", []
-    for language, text in FENCE.findall((ROOT / "docs" / "firmware.md").read_text()):
-        if language == "toml":
-            (tmp_path / "healthy.toml").write_text(text)
-        elif language == "sh":
-            done = subprocess.run(["sh", "-e", "-c", text], cwd=tmp_path, env=env, timeout=120,
-                                  capture_output=True, text=True)  # fmt: skip
-            assert done.returncode == 0, done.stderr
-            printed = done.stdout
-        else:
-            told.append(text)
-            assert printed.endswith(text)
-    assert len(told) == 2
 
 
 def complete_models() -> list[tuple[str, str]]:
@@ -139,67 +114,6 @@ def test_the_report_in_the_readme_is_what_is_printed(
     lines = report(bondgraph.compile(ROOT / "models" / "khepera.bg"), [])
     second = next(n for n, line in enumerate(lines) if line.startswith("r2"))
     actual = "\n".join(["$ make run", *lines[: second - 1], "...", ""])
-    if update:
-        replaced(page, shown, actual)
-    else:
-        assert shown == actual
-
-
-@pytest.mark.parametrize("page", ["README.md", "docs/json.md"])
-def test_examples_in_python_run(page: str, tmp_path: Path) -> None:
-    text = (ROOT / page).read_text(encoding="utf-8")
-    (tmp_path / "models").symlink_to(ROOT / "models")
-    command = tmp_path / "bondgraph"
-    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m bondgraph "$@"\n')
-    command.chmod(0o755)
-    for language, program in FENCE.findall(text):
-        if language == "python":
-            done = subprocess.run(
-                [sys.executable, "-c", program],
-                cwd=tmp_path,
-                env={
-                    **os.environ,
-                    "PYTHONPATH": str(ROOT),
-                    "PATH": f"{tmp_path}:{os.environ['PATH']}",
-                },
-                capture_output=True,
-                text=True,
-                check=False,
-            )
-            assert done.returncode == 0, done.stderr
-            assert "r1" in done.stdout
-
-
-def test_the_page_about_python_runs(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
-    done = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False)
-    assert done.attempted > 20
-    assert done.failed == 0
-
-
-def test_the_page_about_fleets_runs_and_shows_what_is_printed(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    update: bool,
-) -> None:
-    page = ROOT / "docs" / "fleets.md"
-    text = page.read_text(encoding="utf-8")
-    monkeypatch.chdir(ROOT)
-    example = doctest.DocTestParser().get_doctest(text, {}, page.name, str(page), 0)
-    done = doctest.DocTestRunner().run(example, clear_globs=False)
-    assert done.attempted > 10 and done.failed == 0
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "100")
-    Path("models").symlink_to(ROOT / "models")
-    Path("runs").mkdir()
-    for name, log in example.globs["runs"].items():
-        write_log(log, f"runs/{name}.csv")
-    Path("runs/press4.csv").write_text("t,U\n" + "".join(f"{k},6\n" for k in range(9)))
-    shown = next(t for _, t in FENCE.findall(text) if t.startswith("$ bondgraph monitor"))
-    words = shown.splitlines()[0].split()[2:]
-    assert main(words) == 0
-    actual = f"{shown.splitlines()[0]}\n{capsys.readouterr().out}"
     if update:
         replaced(page, shown, actual)
     else:
