@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs site wheel bench update fuzz random real mutants faults kills account clean
+.PHONY: help run demo robots test check lint types imports docs site wheel bench vscode edits update fuzz random real mutants faults kills account clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -81,6 +81,14 @@ bench: $(VENV)/bench.stamp ## medians of the times that matter, with their ratio
 	BONDGRAPH_BENCH_PYTHON=$(VENV)/toolbox/bin/python \
 	BONDGRAPH_BENCH_PEERS=$(VENV)/toolbox:$(VENV)/newer \
 	$(BIN)/python -m tests.bench $(if $(SHORT),--short)
+
+vscode: ## the extension for VS Code, tested and packed in editors/vscode/dist; needs npm
+	npm --prefix editors/vscode ci --ignore-scripts
+	npm --prefix editors/vscode test
+	npm --prefix editors/vscode run pack
+
+edits: $(VENV)/dev.stamp ## 10 000 random edits through the language server, compared with check; half an hour
+	$(BIN)/python -m tests.editor_edits $(if $(SEED),--seed $(SEED))
 
 update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model > /dev/null || exit 1; done
