@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from contextlib import suppress
 from multiprocessing.connection import Connection
@@ -34,6 +35,8 @@ def staged(pipe: Connection, job: Job) -> None:
         if not drawn["sound"]:
             return
         pipe.poll(_REST)
+        with suppress(AttributeError, OSError):
+            os.nice(5)  # after what is drawn while somebody types
         try:
             compilation = opened(job)
             pipe.send(derived(compilation, job.version))
