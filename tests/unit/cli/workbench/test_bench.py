@@ -30,9 +30,11 @@ def _read(address: str, talk: Any) -> Any:
     """What happens on a WebSocket of the page."""
 
     async def run() -> Any:
-        async with aiohttp.ClientSession() as session:
-            async with session.ws_connect(f"{address}ws", max_msg_size=0) as page:
-                return await talk(session, page)
+        async with (
+            aiohttp.ClientSession() as session,
+            session.ws_connect(f"{address}ws", max_msg_size=0) as page,
+        ):
+            return await talk(session, page)
 
     return asyncio.run(run())
 
