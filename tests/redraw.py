@@ -54,7 +54,8 @@ def table(alone: list[list[float]], row: list[list[float]]) -> str:
     for words, found in (("one key at a time", alone), (f"{_RATE:g} keys a second", row)):
         times, work = sorted(t for t, _ in found), sorted(cpu for _, cpu in found)
         rows.append(f"| {words} | {len(times)} | {times[len(times) // 2]:.0f} ms | "
-                    f"{times[int(0.95 * len(times))]:.0f} ms | {times[-1]:.0f} ms | {work[len(work) // 2]:.0f} ms |")  # fmt: skip
+                    f"{times[int(0.95 * len(times))]:.0f} ms | {times[-1]:.0f} ms | "
+                    f"{work[len(work) // 2]:.0f} ms |")  # fmt: skip
     head = ["| | drawings | median | 95 % | worst | processor time of a sketch |",
             "|---|---|---|---|---|---|"]  # fmt: skip
     return "\n".join([*head, *rows])
