@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs site wheel bench vscode edits update fuzz random real mutants faults kills account clean
+.PHONY: help run demo robots test check lint types imports docs site wheel bench vscode edits update fuzz random real mutants faults kills account vendored clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -118,6 +118,9 @@ kills: $(VENV)/dev.stamp ## monitors of every source, each killed 200 times at r
 
 account: $(VENV)/dev.stamp ## an hour at 1 kHz with a disturbance every minute: the account adds up; some minutes
 	$(BIN)/python -m tests.account $(if $(SEED),--seed $(SEED))
+
+vendored: ## what the workbench uses of npm, built anew: the same versions give the same bytes
+	cd vendor && npm ci && node build.mjs
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache
