@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from bondgraph.views import Relations, Signatures
 
 T = TypeVar("T")
+Own = TypeVar("Own", bound="Compilation")
 
 #: What a step may be made of, see `Options`: in one form, or observers where they are named.
 Form = Literal["derivative", "observer"] | tuple[str, ...]
@@ -198,6 +199,16 @@ class Compilation:
         """
         return self._again(self.options._replace(form=form))
 
+    def of(self, model: str) -> Compilation:
+        """Another model of the same file, which is not read again.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/khepera.bg", open_ports=True)
+        >>> c.of("Gear").graph.name
+        'Gear'
+        """
+        return self._sharing(Compilation(self.source, model, self.options))
+
     # ------------------------------------------------------------ the stages, in order
 
     @cached_property
@@ -218,7 +229,10 @@ class Compilation:
         from bondgraph.passes.elaboration.elaborate import elaborate
 
         own = self.syntax, self.source, self.model, self._load, self.report
-        found = self._stage(elaborate(*own, self.options.open_ports))
+        graph = elaborate(*own, self.options.open_ports)
+        if graph is None:
+            self._mend_units()
+        found = self._stage(graph)
         given, offsets = dict(self.options.parameters), dict(self.options.offsets)
         try:
             found = found.with_values(given) if given else found
@@ -807,6 +821,11 @@ class Compilation:
 
     # ------------------------------------------------------------------------- helpers
 
+    def _sharing(self, other: Own) -> Own:
+        """Another compilation of the same text, with its tree."""
+        vars(other).update(syntax=self.syntax)
+        return other
+
     def _again(self, options: Options) -> Compilation:
         """With options that leave the relations what they are, and all that is known of these."""
         found = Compilation(self.source, self.model, options)
@@ -833,11 +852,12 @@ class Compilation:
     def _tuned(self) -> Tuned:
         """The limits of the tuning, for code."""
         from bondgraph.backends.decision import UNTUNED, Tuned
-        from bondgraph.runtime.diagnosis.cusum import on_board
 
         own = self.options.tuning
         if own is None:
             return UNTUNED
+        from bondgraph.runtime.diagnosis.cusum import on_board  # which NumPy comes with
+
         limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
         words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
         return Tuned(limits, words)
@@ -892,13 +912,27 @@ class Compilation:
             raise CompileError(tuple(self.report.diagnostics))
         return value
 
+    def _mend_units(self) -> None:
+        """Where units disagree, say which change of the text makes them agree."""
+        from bondgraph.frontend.parser import parse
+        from bondgraph.passes.elaboration.elaborate import elaborate
+        from bondgraph.passes.elaboration.unit_mends import CODE, unit_mends
+
+        def holds(text: str) -> bool:
+            report, source = Report(), Source(self.source.path, text)
+            file = parse(source, report)
+            if file is not None and not report.failed:
+                elaborate(file, source, self.model, self._load, report, self.options.open_ports)
+            return not any(d.code == CODE for d in report.diagnostics)
+
+        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, holds)
+
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
         from bondgraph.frontend.parser import has_edition, parse
-        from bondgraph.frontend.read import read
 
         beside = os.path.join(os.path.dirname(origin.source.path), path)
-        source = read(beside, self.report, origin)
+        source = self._read(beside, origin)
         if source is None:
             return None
         if not has_edition(source):  # of a file that is no model, no line is shown
@@ -908,6 +942,12 @@ class Compilation:
                 " \"motor.bg\"`; `bondgraph check` on the file itself says more.")  # fmt: skip
             return None
         return parse(source, self.report)
+
+    def _read(self, path: str, origin: Span) -> Source | None:
+        """The text of an imported file; an editor has one that is not saved yet."""
+        from bondgraph.frontend.read import read
+
+        return read(path, self.report, origin)
 
 
 def compile(

@@ -117,8 +117,19 @@ def changes(
     return (*found, *[Change(path, "removed") for path in old])
 
 
+def outdated(
+    artifacts: Iterable[Artifact | BinaryArtifact], folder: str | os.PathLike[str]
+) -> tuple[str, ...]:
+    """The paths below `folder` that are not what `write` would leave there; nothing is written.
+
+    These are files that are missing or other ones, and files of an earlier run that are not among
+    the artifacts.
+    """
+    return tuple(str(Path(folder) / c.path) for c in changes(artifacts, folder) if c.what != "same")
+
+
 def _contents(artifacts: Iterable[Artifact | BinaryArtifact]) -> dict[str, bytes]:
-    """The bytes of each file, by path."""
+    """The bytes of each file, by its path."""
     return {
         a.path: a.data if isinstance(a, BinaryArtifact) else printable(a.text).encode()
         for a in artifacts
