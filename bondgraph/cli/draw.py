@@ -6,6 +6,7 @@ from argparse import ArgumentParser, Namespace
 
 from bondgraph import compile
 from bondgraph.cli import console
+from bondgraph.cli.watching import sources_of, watched, watching
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -22,11 +23,24 @@ def arguments(parser: ArgumentParser) -> None:
         metavar="FILE.svg",
         help="where to write the figure, - for stdout (default: beside you, named like the file)",
     )
+    watching(parser)
 
 
 def run(args: Namespace) -> int:
-    """Write the figure; where strokes cannot be placed, one that shows why, with the status 1."""
+    """Write the figure, with --watch after each change."""
+    if not args.watch:
+        return _drawn(args, set())
+    used: set[str] = set()
+    return watched(lambda: _drawn(args, used), [args.model], lambda: used)
+
+
+def _drawn(args: Namespace, used: set[str]) -> int:
+    """Write the figure; where strokes cannot be placed, one that shows why, with the status 1.
+
+    The files that it was read from become `used`.
+    """
     compilation = compile(args.model, open_ports=True)
+    used |= sources_of(compilation.graph)
     conflicts = compilation.conflicts
     svg = compilation.drawing(args.derivative)
     found = [*compilation.report.diagnostics, *[conflict.finding for conflict in conflicts]]
