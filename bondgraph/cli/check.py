@@ -44,7 +44,7 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Check every model; the exit status is 1 if one is wrong. With --watch after each change."""
     used: set[str] = set()
-    if not getattr(args, "watch", False):  # nor is it there where check is all that is said
+    if not args.watch:
         return _checked(args, used)
     return watched(lambda: _checked(args, used), args.models, lambda: used)
 

@@ -28,9 +28,9 @@ COMMANDS = {
     "edit": "write a model on a page that draws and derives it while you type",
     "draw": "draw a bond graph with half arrows and causal strokes",
     "lsp": "answer an editor: findings, completion, hover and more while a model is written",
-    "completion": "print what makes a shell complete commands, options and files",
-    "man": "print or write the manual pages",
     "report": "write all that is known of a model as one HTML page",
+    "complete": "print what makes a shell complete commands, options and files",
+    "man": "print or write the manual pages",
 }
 
 _EPILOG = """\

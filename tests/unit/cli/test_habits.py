@@ -252,7 +252,7 @@ def test_the_matrix_in_latex_has_the_entries_of_the_matrix(bondgraph: Command) -
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "tcsh"])
 def test_completion_knows_all_commands_and_options(bondgraph: Command, shell: str) -> None:
-    out = bondgraph("completion", shell).out
+    out = bondgraph("complete", shell).out
     for name, parser in subparsers(parser_for(None)).items():
         assert name in out
         if shell == "bash":
@@ -264,7 +264,7 @@ def test_bash_completes(bondgraph: Command, tmp_path: Path) -> None:
     if shutil.which("bash") is None:
         pytest.skip("no bash")
     script = tmp_path / "c.bash"
-    script.write_text(bondgraph("completion", "bash").out)
+    script.write_text(bondgraph("complete", "bash").out)
     ask = (
         f". {script}; COMP_WORDS=(bondgraph simulate --du); COMP_CWORD=2;"
         " $(complete -p bondgraph | sed 's/.*-F \\([^ ]*\\).*/\\1/') ; echo ${COMPREPLY[@]}"

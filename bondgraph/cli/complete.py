@@ -1,4 +1,4 @@
-"""`bondgraph completion`: what makes a shell complete commands, options and files."""
+"""`bondgraph complete`: what makes a shell complete commands, options and files."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _PLACES = ("FILE", "MODEL", "LOG", "SCENARIO")
 
 
 def arguments(parser: ArgumentParser) -> None:
-    """The arguments of `completion`."""
+    """The arguments of `complete`."""
     parser.add_argument("shell", metavar="SHELL", choices=_SHELLS, help=", ".join(_SHELLS))
 
 
