@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs site wheel bench update fuzz random real mutants faults kills account clean
+.PHONY: help run demo robots test check lint types imports docs site wheel bench vscode edits update fuzz random real mutants faults kills account vendored clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -82,6 +82,14 @@ bench: $(VENV)/bench.stamp ## medians of the times that matter, with their ratio
 	BONDGRAPH_BENCH_PEERS=$(VENV)/toolbox:$(VENV)/newer \
 	$(BIN)/python -m tests.bench $(if $(SHORT),--short)
 
+vscode: ## the extension for VS Code, tested and packed in editors/vscode/dist; needs npm
+	npm --prefix editors/vscode ci --ignore-scripts
+	npm --prefix editors/vscode test
+	npm --prefix editors/vscode run pack
+
+edits: $(VENV)/dev.stamp ## 10 000 random edits through the language server, compared with check; half an hour
+	$(BIN)/python -m tests.editor_edits $(if $(SEED),--seed $(SEED))
+
 update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model > /dev/null || exit 1; done
 	$(BIN)/python -m pytest --update
@@ -110,6 +118,9 @@ kills: $(VENV)/dev.stamp ## monitors of every source, each killed 200 times at r
 
 account: $(VENV)/dev.stamp ## an hour at 1 kHz with a disturbance every minute: the account adds up; some minutes
 	$(BIN)/python -m tests.account $(if $(SEED),--seed $(SEED))
+
+vendored: ## what the workbench uses of npm, built anew: the same versions give the same bytes
+	cd vendor && npm ci && node build.mjs
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

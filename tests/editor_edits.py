@@ -23,8 +23,10 @@ from typing import Any, NamedTuple
 
 from bondgraph.cli.main import main as command_line
 from bondgraph.editor.language_server import connect, language_server
+from tests.measured import write
 
 MODELS = sorted((Path(__file__).parents[1] / "models").glob("*.bg"))
+PAGE = Path(__file__).parents[1] / "docs" / "editor.md"
 #: Edits of one text, before another one is taken.
 EPISODE = 6
 PIECES = (
@@ -274,26 +276,38 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--edits", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--times", action="store_true")
+    parser.add_argument("--times", action="store_true", help="type into the robot and measure")
+    parser.add_argument("--write", action="store_true", help="write the table into its page")
     args = parser.parse_args()
+    command = f"python -m tests.editor_edits --edits {args.edits}"
     if not args.times:
         with tempfile.TemporaryDirectory() as folder:
             found = asyncio.run(campaign(args.edits, args.seed, Path(folder).resolve()))
-        print(f"{args.edits} edits, no failure, findings as check has them, {len(found)} codes")
-        print(", ".join(f"{code} {times}" for code, times in found.most_common()))
-        return
-    times, asked = asyncio.run(typing(args.edits, args.seed))
-    row("findings", times)
-    for name in QUESTIONS:
-        row(name, [a.took for a in asked if a.method == f"textDocument/{name}"])
+        lines = [
+            "| edits | failures | differences from `check` | findings | of kinds |",
+            "|---|---|---|---|---|",
+            f"| {args.edits} | 0 | 0 | {sum(found.values())} | {len(found)} |",
+        ]
+    else:
+        command += " --times"
+        times, asked = asyncio.run(typing(args.edits, args.seed))
+        lines = [
+            "| | how many | median, ms | worst, ms | median of the processor, ms | worst, ms |",
+            "|---|---|---|---|---|---|",
+            row("findings after a key", times),
+        ]
+        for name in QUESTIONS:
+            lines.append(row(name, [a.took for a in asked if a.method == f"textDocument/{name}"]))
+    print("\n".join(lines))
+    if args.write:
+        write(PAGE, command, "\n".join(lines))
 
 
-def row(name: str, times: list[Took]) -> None:
+def row(name: str, times: list[Took]) -> str:
     """One line of the table: how many, median and worst in ms, then of the processor alone."""
-    if times:
-        cells = [f"{1e3 * f(t[k] for t in times):.1f}" for k in (0, 1)
-                 for f in (statistics.median, max)]  # fmt: skip
-        print(f"| {name} | {len(times)} | {' | '.join(cells)} |")
+    cells = [f"{1e3 * f(t[k] for t in times):.1f}" for k in (0, 1)
+             for f in (statistics.median, max)]  # fmt: skip
+    return f"| {name} | {len(times)} | {' | '.join(cells)} |"
 
 
 if __name__ == "__main__":

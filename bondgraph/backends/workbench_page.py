@@ -9,8 +9,8 @@ from bondgraph.library.elements import KINDS as ELEMENTS
 from bondgraph.text.printable import printable
 
 _SCRIPTS = (
-    "main.js", "editor.js", "language.js", "picture.js", "residuals.js", "signatures.js", "trial.js", "curves.js",
-    "panes.js", "dom.js", "vendored.js",
+    "main.js", "editor.js", "language.js", "picture.js", "residuals.js", "signatures.js",
+    "trial.js", "curves.js", "panes.js", "dom.js", "vendored.js",
 )  # fmt: skip
 _LIGHT = (
     "--mark:#ffe9a8;--band:#e8eef4;--trace:#8f8f8f;--ground:#f4f2ee;--raised:#ffffff;"

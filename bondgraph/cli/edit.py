@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import secrets
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,14 +26,10 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Read the file, listen, then serve until somebody stops it."""
-    try:
-        from bondgraph.runtime.live.server import listening
-    except ImportError as error:
-        if error.name != "aiohttp":
-            raise
-        raise Trouble(
-            "the workbench needs aiohttp: pip install aiohttp, or install bondgraph-arr[editor]"
-        ) from error
+    if find_spec("aiohttp") is None or find_spec("pygls") is None:
+        raise Trouble("the workbench needs aiohttp and pygls: pip install 'bondgraph-arr[editor]'")
+    from bondgraph.runtime.live.server import listening
+
     if not 0 <= args.port < 65536:
         print(f"error: {args.port} is no port: 0 to 65535", file=sys.stderr)
         return 2

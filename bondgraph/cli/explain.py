@@ -57,6 +57,9 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Print the explanation; the exit status is 2 where there is nothing of that name."""
+    if args.out is not None and not (args.derive and args.name):
+        print("-o is for a derivation: explain MODEL RESIDUAL --derive -o FILE", file=sys.stderr)
+        return 2
     if args.name is None:
         return _code(args.subject)
     compilation = compile(args.subject, isolate=args.isolate)

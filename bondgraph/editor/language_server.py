@@ -13,6 +13,7 @@ import logging
 import sys
 from collections.abc import Callable, Iterable
 from time import perf_counter
+from typing import Any
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcInvalidParams
@@ -29,10 +30,12 @@ from bondgraph.editor.occurrences import Occurrence, Symbol
 from bondgraph.editor.outline_tree import Entry, outline
 from bondgraph.editor.renaming import CannotRename, renamed
 from bondgraph.editor.residual_facts import ResidualFacts
+from bondgraph.editor.soundness import Edited
 from bondgraph.editor.text_positions import Encoding, Place, extent, offset_of
 from bondgraph.editor.workspace import Document, Workspace
 from bondgraph.frontend.formatter import format_text
-from bondgraph.text.diagnostic import Diagnostic, Edit, Report
+from bondgraph.pipeline import Options
+from bondgraph.text.diagnostic import CompileError, Diagnostic, Edit, Report
 from bondgraph.text.source import Source, Span
 
 _log = logging.getLogger(__name__)
@@ -303,7 +306,7 @@ def connect(
 def language_server() -> BondGraphServer:
     """A new server with everything that it answers."""
     server = BondGraphServer()
-    for part in (_documents, _questions, _names, _renaming, _shown):
+    for part in (_documents, _questions, _names, _renaming, _shown, _pictures):
         part(server)
     return server
 
@@ -532,3 +535,29 @@ def _shown(server: BondGraphServer) -> None:
             return None
         found = lenses(document, ls.residuals.get(document.path))
         return [lsp.CodeLens(ls.range(lens.span), lsp.Command(lens.text, "")) for lens in found]
+
+
+def _pictures(server: BondGraphServer) -> None:
+    @server.feature("bondgraph/drawing")
+    async def drawn(ls: BondGraphServer, params: Any) -> dict[str, str | None]:
+        """The drawing of a document, {uri}, as {svg}; null with {problem} where there is none."""
+        document = ls.document(str(getattr(params, "uri", "")))
+        if document is None:
+            return {"svg": None, "problem": "the document is not open"}
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(None, drawing, document)
+
+
+def drawing(document: Document) -> dict[str, str | None]:
+    """The picture of the first model that has one, with strokes or with what keeps them away."""
+    problem = "the text has mistakes"
+    for model in (None, *document.names.models):
+        texts = document.workspace.texts
+        own = Edited(document.source, model, Options(open_ports=True), texts)
+        try:
+            return {"svg": own.drawing(), "problem": None}
+        except CompileError as error:
+            problem = str(error)
+            if own.report.diagnostics[-1:] and own.report.diagnostics[-1].code != "several-models":
+                break
+    return {"svg": None, "problem": problem}

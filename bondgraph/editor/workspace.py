@@ -25,7 +25,7 @@ class Document:
     """One text that is open: what `check` says of it, and what its names mean.
 
     All is found when it is asked for and holds for one text; another text is another document.
-    `sound_one` is the last one before it that had no mistakes, for what a text with some cannot say.
+    `sound_one` is the last one before it without mistakes, for what a text with some cannot say.
     """
 
     def __init__(

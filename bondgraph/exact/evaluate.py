@@ -8,7 +8,6 @@ pass more (Griewank and Walther, 2008, ch. 3).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from fractions import Fraction
 from random import Random
 from typing import Any, NamedTuple, Protocol
 
@@ -124,7 +123,7 @@ def _numbers(roots: tuple[Expr, ...], sample: Assignment) -> dict[Expr, Number] 
 
 def weighed(numbers: Numbers, coefficient: Rational) -> Number:
     """A rational number as one of these; a whole one stays an int, which multiplies faster."""
-    return coefficient if type(coefficient) is int else numbers.fraction(Fraction(coefficient))
+    return coefficient if isinstance(coefficient, int) else numbers.fraction(coefficient)
 
 
 def _power(numbers: Numbers, x: Number, exponent: int) -> Number:
@@ -362,22 +361,25 @@ def pull(
     With `jumps` what a decision rests on counts as having an influence.
     """
 
-    def give(node: Expr, part: Any) -> None:
-        if not algebra.vanishes(part):
-            known = adjoints.get(node)
-            adjoints[node] = part if known is None else algebra.join(known, part)
-
+    vanishes, join = algebra.vanishes, algebra.join
     for node in reversed(nodes):
         adjoint = adjoints.get(node)
-        if adjoint is None or not node.args or algebra.vanishes(adjoint):
+        if adjoint is None or not node.args or vanishes(adjoint):
             continue
         if node.op is Op.DER:
-            give(node.args[0], algebra.back_der(adjoint, values[node.args[0]]))
+            parts = [(node.args[0], algebra.back_der(adjoint, values[node.args[0]]))]
         elif node.op is Op.INT:
-            give(node.args[0], algebra.back_integral(adjoint))
+            parts = [(node.args[0], algebra.back_integral(adjoint))]
+        elif node.op is Op.ADD:
+            numbers = algebra.numbers
+            parts = [(a, algebra.times(adjoint, weighed(numbers, c))) for c, a in node.terms]
         else:
-            for argument, slope in slopes(node, values, algebra, need[node], jumps):
-                give(argument, algebra.back(adjoint, slope, need[argument]))
+            found = slopes(node, values, algebra, need[node], jumps)
+            parts = [(a, algebra.back(adjoint, slope, need[a])) for a, slope in found]
+        for argument, part in parts:
+            if not vanishes(part):
+                known = adjoints.get(argument)
+                adjoints[argument] = part if known is None else join(known, part)
 
 
 class Forward:
@@ -521,7 +523,7 @@ def root_value(node: Expr, args: Sequence[Any], sample: Any, n: int) -> Any:
     """
     algebra = sample.algebra
     if not isinstance(algebra, Taylor):
-        if isinstance(algebra, Exponentials) and all(not a.degree for a in args):
+        if isinstance(algebra, Exponentials) and not any(degree for _, degree in args):
             raise Undefined("a root of constants among exponentials")
         raise Mixed("an equation without a closed solution")
     root = node.root

@@ -6,6 +6,7 @@ An equation is linear form + rest = 0, where the rest is an expression only if i
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from fractions import Fraction
 from functools import lru_cache
 from random import Random
 from typing import NamedTuple
@@ -18,7 +19,7 @@ from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.field.numbers import Number, Numbers
 from bondgraph.field.series import Series
 from bondgraph.field.sparse import CONSTANT, Row
-from bondgraph.ir.expr import Expr, Op, Rational, Symbol, topological
+from bondgraph.ir.expr import Expr, Op, Symbol, topological
 
 
 class Equation(NamedTuple):
@@ -153,7 +154,7 @@ class Writer:
 
 
 @lru_cache(maxsize=1 << 14)
-def _terms(law: Expr) -> Sequence[tuple[Rational, Sequence[tuple[Expr, int, int]]]] | None:
+def _terms(law: Expr) -> Sequence[tuple[Fraction, Sequence[tuple[Expr, int, int]]]] | None:
     """A law as numbers times products of symbols, each to a power or differentiated; None if not.
 
     >>> from bondgraph.ir.expr import Kind, Pool

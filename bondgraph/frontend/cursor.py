@@ -268,7 +268,7 @@ class Cursor:
                     break
                 if fresh[at] and at > begin and word != "{":
                     goes_on = open_brackets > 0 and not self.looks_fresh(at)
-                    if not goes_on and not _continues(words[at - 1]):
+                    if not goes_on and not continues(words[at - 1]):
                         break
                     if self.begins_statement(at):
                         break
@@ -302,6 +302,6 @@ class Cursor:
 _CONTINUES = frozenset(["+", "-", "*", "/", "^", ",", "=", "(", "[", "<", ">", "<=", ">=", "=="])
 
 
-def _continues(word: str) -> bool:
+def continues(word: str) -> bool:
     """Whether a statement goes on in the next line after this word."""
     return word in _CONTINUES or word in ("!=", "and", "or", "not", "+-", "±") or is_arrow(word)

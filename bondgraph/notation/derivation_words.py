@@ -6,10 +6,10 @@ import re
 from collections.abc import Callable
 
 from bondgraph.ir.derivation import Derivation, DerivationStep
-from bondgraph.ir.expr import Expr
+from bondgraph.ir.expr import VARIABLES, Expr, symbols
 from bondgraph.notation.dump_stages import equation_name
 from bondgraph.notation.formula import Reader
-from bondgraph.notation.latex import Latex, letter
+from bondgraph.notation.latex import Latex, letter, lettered
 from bondgraph.notation.line import show
 from bondgraph.text.numerals import joined, plural
 from bondgraph.text.source import Source
@@ -128,7 +128,11 @@ class LatexLines:
 
     def __init__(self, derivation: Derivation) -> None:
         self._reader = Reader({}, derivation.starts)
-        self._spell = Latex(letter)
+        held = symbols(*[e for s in derivation.steps for e in (s.zero, s.closed)], derivation.arr)
+        unknown = {s.symbol.name for s in held if s.kind in VARIABLES}
+        short = lettered(s.symbol.name for s in held if s.symbol.name not in unknown)
+        # of an unknown it is always said whose it is
+        self._spell = Latex(lambda n, dots: (letter if n in unknown else short)(n, dots))
 
     def inline(self, expr: Expr) -> str:
         """An expression inside of a sentence, between dollars."""

@@ -11,7 +11,7 @@ import { Trial } from "./trial.js";
 let hello = null, socket = null, tries = 0, editor = null, server = null;
 let version = 0, looked = 0, answered = 0, digest = "", saved = "", derived = null, sound = false;
 let suspects = {}, pointed = {};
-const times = []; // ms from a key to its drawing, for who asks
+const times = []; // ms from a key to its drawing, and of the processor for its sketch: for who asks
 
 const send = (wish) => { if (socket?.readyState === 1) socket.send(JSON.stringify(wish)); };
 const dirty = () => editor !== null && editor.text !== saved;
@@ -68,7 +68,7 @@ const heard = {
     answered = Math.max(answered, found.version);
     picture.show(found.svg, found.nodes, found.bonds);
     picture.stale(found.svg === null);
-    if (began.has(found.version)) { times.push(performance.now() - began.get(found.version)); began.clear(); }
+    if (began.has(found.version)) { times.push([performance.now() - began.get(found.version), found.took ?? 0]); began.clear(); }
     sound = found.sound;
     $("sum").textContent = found.sound ? found.message : "";
     models(found.models, found.model);

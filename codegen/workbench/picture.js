@@ -212,7 +212,7 @@ export class Picture {
       e.halo = halo;
     }
     e.halo.setAttribute("class", ["halo", ...looks].join(" "));
-    e.halo.style.setProperty("--chance", `${Math.round(20 + 45 * (chance || 0))}%`);
+    e.halo.style.setProperty("--chance", `${Math.round(6 + 16 * (chance || 0))}%`);
   }
 
   // `nodes` stand out from the rest; `now` is the one that matters most; `suspects` maps nodes to

@@ -125,11 +125,11 @@ export class Trial {
   // Ten times less to ten times more, evenly on a scale of powers.
   parameter(t) {
     const set = this.parameters[t.name], nominal = t.value, now = set ?? nominal;
-    const out = make("input", { type: "number", step: "any", value: now === null ? "" : String(Number(now.toPrecision(6))), "aria-label": `${t.name} in ${t.unit}`,
+    const out = make("input", { type: "number", step: "any", value: now === null ? "" : plainly(now, 6), "aria-label": `${t.name} in ${t.unit}`,
       onchange: () => { if (out.value === "") delete this.parameters[t.name]; else this.parameters[t.name] = Number(out.value); place(); this.wanted(); } });
     const range = make("input", { type: "range", min: "-1", max: "1", step: "0.01", "aria-label": t.name, disabled: !nominal,
-      oninput: () => { const v = nominal * 10 ** Number(range.value); if (Number(range.value) === 0) delete this.parameters[t.name]; else this.parameters[t.name] = v; out.value = String(Number(v.toPrecision(4))); row.classList.toggle("set", t.name in this.parameters); this.wanted(); },
-      ondblclick: () => { delete this.parameters[t.name]; out.value = String(nominal); range.value = "0"; row.classList.remove("set"); this.wanted(); } });
+      oninput: () => { const v = nominal * 10 ** Number(range.value); if (Number(range.value) === 0) delete this.parameters[t.name]; else this.parameters[t.name] = v; out.value = plainly(v, 4); row.classList.toggle("set", t.name in this.parameters); this.wanted(); },
+      ondblclick: () => { delete this.parameters[t.name]; out.value = plainly(nominal, 6); range.value = "0"; row.classList.remove("set"); this.wanted(); } });
     const place = () => { const v = this.parameters[t.name] ?? nominal; range.value = nominal && v / nominal > 0 ? String(Math.log10(v / nominal)) : "0"; row.classList.toggle("set", t.name in this.parameters); };
     const row = make("div", { class: "row slide", title: this.found.docs[t.name] || "", onpointerenter: () => this.light({ fault: t.name }), onpointerleave: () => this.light({}) },
       make("span", { class: "name" }, t.name), range, out, make("span", { class: "unit" }, t.unit === "1" ? "" : t.unit));
@@ -205,6 +205,12 @@ export class Trial {
     const signatures = this.found.signatures, row = signatures?.groups.flatMap((g) => g.rows).find((r) => r.fault === fault);
     return make("span", { class: "cells" }, ...(row ? row.cells.map((kind, k) => make("span", { class: `cell ${kind || "none"}${fired.includes(signatures.residuals[k]) ? " fired" : ""}`, title: signatures.residuals[k] }, make("i"))) : []));
   }
+}
+
+// A number that a field takes, without a row of zeros.
+function plainly(x, digits) {
+  const plain = String(Number(x.toPrecision(digits)));
+  return plain.length > Math.max(7, digits) ? x.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e") : plain;
 }
 
 const float = (x) => (Number.isInteger(x) ? `${x}.0` : String(x));

@@ -31,7 +31,8 @@ ROWS = {
     "LINE_BYTES": "bytes of a line", "PAGES": "pages at once",
     "CONNECTIONS": "connections at once", "WISH_BYTES": "bytes of a wish",
     "WISHES_A_SECOND": "wishes a second", "WISHES": "wishes of all pages",
-    "INJECTED": "faults of the virtual machine",
+    "INJECTED": "faults of the virtual machine", "EDIT_BYTES": "characters of a text that a page",
+    "EDITORS": "pages that edit at once", "KEYS_A_SECOND": "messages a second of one page that",
 }  # fmt: skip
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import time
 from contextlib import suppress
 from multiprocessing.connection import Connection
 from typing import Any
@@ -29,11 +31,14 @@ def staged(pipe: Connection, job: Job) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ^C is for the server
     _bounded()
     with suppress(EOFError, BrokenPipeError, ConnectionResetError):
+        begun = time.process_time()
         drawn = sketch(job)
-        pipe.send(drawn)
+        pipe.send(drawn | {"took": 1e3 * (time.process_time() - begun)})
         if not drawn["sound"]:
             return
         pipe.poll(_REST)
+        with suppress(AttributeError, OSError):
+            os.nice(5)  # after what is drawn while somebody types
         try:
             compilation = opened(job)
             pipe.send(derived(compilation, job.version))

@@ -206,10 +206,11 @@ class _Replay:
         unknown = None if change.unknown is None else self.signals.expr(change.unknown)
         before = self.steps[numbers[change.row] - 1].closed
         number = len(self.steps) + 1
+        divisors = tuple([self.signals.expr(d) for d in _divisors(change.expr, sums=True)])
         self.steps.append(
             DerivationStep(
-                number, move, None, before, unknown, expr, expr,
-                uses=(numbers[change.row],), times=change.times, row=numbers[change.by],
+                number, move, None, before, unknown, expr, expr, (numbers[change.row],),
+                divisors=divisors, times=change.times, row=numbers[change.by],
             )
         )  # fmt: skip
         numbers[change.row] = number
@@ -321,9 +322,10 @@ class _Replay:
         )  # fmt: skip
 
 
-def _divisors(value: Any) -> list[Any]:
-    """What moves and is divided by."""
-    found = {p.base for p in value.atoms(sp.Pow) if p.exp.is_negative and p.base.has(t)}
+def _divisors(value: Any, sums: bool = False) -> list[Any]:
+    """What is divided by and moves, with `sums` also what is constant but may be zero."""
+    below = [p.base for p in value.atoms(sp.Pow) if p.exp.is_negative]
+    found = [b for b in below if b.has(t) or (sums and b.is_Add)]
     return sorted(found, key=sp.default_sort_key)
 
 

@@ -19,7 +19,7 @@ WARNED = "bg 1\nmodel M { param x = 1; param r = 2 Ohm; Se:U -> 1:j { -> R:r; ->
 WRONG = "bg 1\nmodel M { parm R = 2 Ohm; Se:U -> R:R }\n"
 SCHEMA = (
     MODELS.parent
-    / "editors/node_modules/@microsoft/jest-sarif/lib/schemas/sarif-2.1.0-rtm.5.json"
+    / "editors/vscode/node_modules/@microsoft/jest-sarif/lib/schemas/sarif-2.1.0-rtm.5.json"
 )
 
 
@@ -100,7 +100,7 @@ def test_sarif(bondgraph: Command, tmp_path: Path, text: str) -> None:
     assert all(rules[r["ruleIndex"]] == r["ruleId"] for r in run["results"])
     assert [len(r.get("fixes", [])) for r in run["results"]] == [len(d["edits"]) for d in plain]
     if not SCHEMA.exists():
-        pytest.skip("npm ci in editors/ has not been run")
+        pytest.skip("npm ci in editors/vscode has not been run")
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
     jsonschema.validators.validator_for(schema)(schema).validate(log)
 

@@ -40,6 +40,12 @@ SEEN = [
     ("param R = 2 Ohm; 1:jay { <- Se:U; -> R:R }; jy -> Df:i", "write `jay`"),
     ("param I = 3 kg*m^2; 1:j { <- Se:U; -> I:I }", "write `3 kg.m^2`"),
     ("port p : in electricl; R:r = 2; p -> r", "write `electrical`"),
+    ("0:n { <- Se:A; <- Se:B\n-> R:r = 2 }",
+     "put a 1-junction with an R or an I between Se:B and 0:n"),
+    ("0:n { <- Se:A; <- Se:B\n-> R:r = 2 }",
+     "make 0:n a 1-junction, if its bonds share the flow and not the effort"),
+    ("Sf:A -[1]-> 1:n; n -> R:r = 2; n <- Sf:B",
+     "put a 0-junction with an R or a C between Sf:A and 1:n"),
 ]  # fmt: skip
 
 

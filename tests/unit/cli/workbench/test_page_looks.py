@@ -1,10 +1,9 @@
-"""The workbench at three widths, light and dark, by keyboard; the disk that changes; hostile text."""
+"""The workbench at four widths, light and dark, by keyboard; other writers; hostile text."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
