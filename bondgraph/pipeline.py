@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from typing import TypedDict, Unpack
 
     from bondgraph.backends.decision import Tuned
+    from bondgraph.derivations import Derivations
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
     from bondgraph.ir.artifact import Artifact, BinaryArtifact
@@ -424,6 +425,23 @@ class Compilation:
 
         return Relations(*self._shown[1:])
 
+    def derivation(self, name: str) -> Derivations:
+        """How a residual came about, replayed with SymPy (docs/derivations.md); KeyError else.
+
+        Every step is done from the equations of the bond graph, in the order of the compiler.
+
+        >>> import bondgraph
+        >>> d = bondgraph.compile("models/dc_motor.bg").derivation("r1")
+        >>> d.complete, [step.move for step in d[0].steps][-3:]
+        (True, ['solve', 'differentiate', 'close'])
+        """
+        from bondgraph.derivations import Derivations
+        from bondgraph.passes.relation.derive import derive
+
+        shown = self.residuals[name].residual
+        residual = next(r for r in self._analysis[0].residuals if r.name == name)
+        return Derivations(self.graph, derive(residual, self.graph, shown))
+
     @cached_property
     def signatures(self) -> SignatureMatrix:
         """The fault signature matrix: which residual sees which fault.
@@ -791,11 +809,12 @@ class Compilation:
     def _tuned(self) -> Tuned:
         """The limits of the tuning, for code."""
         from bondgraph.backends.decision import UNTUNED, Tuned
-        from bondgraph.runtime.diagnosis.cusum import on_board
 
         own = self.options.tuning
         if own is None:
             return UNTUNED
+        from bondgraph.runtime.diagnosis.cusum import on_board  # which NumPy comes with
+
         limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
         words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
         return Tuned(limits, words)

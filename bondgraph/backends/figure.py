@@ -83,6 +83,7 @@ def _wire(causal: CausalGraph, wire: Wire) -> str:
     stroke = causal.strokes[wire.bond]
     line = " ".join(f"{px(x)},{px(y)}" for x, y in wire.points)
     hint = f"<title>{escape(_told(causal.graph, wire.bond, stroke))}</title>"
+    of = f'data-bond="{wire.bond}"'
     hit = f'<polyline class="hit" points="{line}"/>'
     sensor = next(
         (n for n in (bond.tail.node, bond.head.node) if _reads(causal, n)),
@@ -92,16 +93,16 @@ def _wire(causal: CausalGraph, wire: Wire) -> str:
         points = wire.points if sensor == bond.head.node else wire.points[::-1]
         tip = arrow(points[-2], points[-1])
         return (
-            f'<g>{hint}{hit}<polyline class="bond line-detector" points="{line}"/>'
+            f'<g {of}>{hint}{hit}<polyline class="bond line-detector" points="{line}"/>'
             f'<polygon class="detector" points="{tip}"/></g>'
         )
     way = rounded(wire.points) + barb(wire.points[-2], wire.points[-1])
     if stroke.reason.cause == "ring":
         dashed = f'<path class="bond line-faint" stroke-dasharray="4 3" d="{way}"/>'
-        return f"<g>{hint}{hit}{dashed}</g>"
+        return f"<g {of}>{hint}{hit}{dashed}</g>"
     ends = wire.points if stroke.at == "head" else wire.points[::-1]
     return (
-        f'<g>{hint}{hit}<path class="bond line-ink" d="{way}"/>'
+        f'<g {of}>{hint}{hit}<path class="bond line-ink" d="{way}"/>'
         f'<path class="stroke line-ink" d="{bar(ends[-2], ends[-1])}"/></g>'
     )
 
@@ -245,4 +246,4 @@ class _Sheet:
         for at in self.strokes.get(wire.bond, ()) if inside else ():
             ends = wire.points if at == "head" else wire.points[::-1]
             drawn.append(f'<path class="thick line-clash" d="{bar(ends[-2], ends[-1])}"/>')
-        return f"<g>{''.join(drawn)}</g>"
+        return f'<g data-bond="{wire.bond}">{"".join(drawn)}</g>'

@@ -233,3 +233,13 @@ def read_tuning(path: str) -> Tuning:
             return Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:
         raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
+
+
+def serving(parser: ArgumentParser, port: int) -> None:
+    """Where a page is served."""
+    add = parser.add_argument
+    add("--port", metavar="N", type=int, default=port,
+        help=f"where the page is served; 0 for any that is free (default: {port})")  # fmt: skip
+    add("--host", metavar="NAME", default="127.0.0.1",
+        help="address to serve at (default: 127.0.0.1, this computer only)")  # fmt: skip
+    add("--no-browser", action="store_true", help="do not open the page")
