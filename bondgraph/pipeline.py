@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from bondgraph.backends.decision import Tuned
     from bondgraph.backends.drawing.scene import Look
+    from bondgraph.derivations import Derivations
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
     from bondgraph.ir.artifact import Artifact, BinaryArtifact
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
     from bondgraph.views import Relations
 
 T = TypeVar("T")
+Own = TypeVar("Own", bound="Compilation")
 
 #: What a step may be made of, see `Options`: in one form, or observers where they are named.
 Form = Literal["derivative", "observer"] | tuple[str, ...]
@@ -196,6 +198,16 @@ class Compilation:
         """
         return self._again(self.options._replace(form=form))
 
+    def of(self, model: str) -> Compilation:
+        """Another model of the same file, which is not read again.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/khepera.bg", open_ports=True)
+        >>> c.of("Gear").graph.name
+        'Gear'
+        """
+        return self._sharing(Compilation(self.source, model, self.options))
+
     # ------------------------------------------------------------ the stages, in order
 
     @cached_property
@@ -216,7 +228,10 @@ class Compilation:
         from bondgraph.passes.elaboration.elaborate import elaborate
 
         own = self.syntax, self.source, self.model, self._load, self.report
-        found = self._stage(elaborate(*own, self.options.open_ports))
+        graph = elaborate(*own, self.options.open_ports)
+        if graph is None:
+            self._mend_units()
+        found = self._stage(graph)
         given, offsets = dict(self.options.parameters), dict(self.options.offsets)
         try:
             found = found.with_values(given) if given else found
@@ -410,6 +425,23 @@ class Compilation:
         from bondgraph.views import Relations
 
         return Relations(*self._shown[1:])
+
+    def derivation(self, name: str) -> Derivations:
+        """How a residual came about, replayed with SymPy (docs/derivations.md); KeyError else.
+
+        Every step is done from the equations of the bond graph, in the order of the compiler.
+
+        >>> import bondgraph
+        >>> d = bondgraph.compile("models/dc_motor.bg").derivation("r1")
+        >>> d.complete, [step.move for step in d[0].steps][-3:]
+        (True, ['solve', 'differentiate', 'close'])
+        """
+        from bondgraph.derivations import Derivations
+        from bondgraph.passes.relation.derive import derive
+
+        shown = self.residuals[name].residual
+        residual = next(r for r in self._analysis[0].residuals if r.name == name)
+        return Derivations(self.graph, derive(residual, self.graph, shown))
 
     @cached_property
     def signatures(self) -> SignatureMatrix:
@@ -753,6 +785,11 @@ class Compilation:
 
     # ------------------------------------------------------------------------- helpers
 
+    def _sharing(self, other: Own) -> Own:
+        """Another compilation of the same text, with its tree."""
+        vars(other).update(syntax=self.syntax)
+        return other
+
     def _again(self, options: Options) -> Compilation:
         """With options that leave the relations what they are, and all that is known of these."""
         found = Compilation(self.source, self.model, options)
@@ -779,11 +816,12 @@ class Compilation:
     def _tuned(self) -> Tuned:
         """The limits of the tuning, for code."""
         from bondgraph.backends.decision import UNTUNED, Tuned
-        from bondgraph.runtime.diagnosis.cusum import on_board
 
         own = self.options.tuning
         if own is None:
             return UNTUNED
+        from bondgraph.runtime.diagnosis.cusum import on_board  # which NumPy comes with
+
         limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
         words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
         return Tuned(limits, words)
@@ -837,6 +875,21 @@ class Compilation:
         if value is None:
             raise CompileError(tuple(self.report.diagnostics))
         return value
+
+    def _mend_units(self) -> None:
+        """Where units disagree, say which change of the text makes them agree."""
+        from bondgraph.frontend.parser import parse
+        from bondgraph.passes.elaboration.elaborate import elaborate
+        from bondgraph.passes.elaboration.unit_mends import CODE, unit_mends
+
+        def holds(text: str) -> bool:
+            report, source = Report(), Source(self.source.path, text)
+            file = parse(source, report)
+            if file is not None and not report.failed:
+                elaborate(file, source, self.model, self._load, report, self.options.open_ports)
+            return not any(d.code == CODE for d in report.diagnostics)
+
+        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, holds)
 
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""

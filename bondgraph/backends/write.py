@@ -68,10 +68,7 @@ def write(
     in the way, `Trouble` where another process writes there or the disk refuses while files are
     moved, OSError if it refuses before, ValueError for a path that leads out of the folder.
     """
-    files = {
-        a.path: a.data if isinstance(a, BinaryArtifact) else printable(a.text).encode()
-        for a in artifacts
-    }
+    files = _contents(artifacts)
     for path in files:
         if not _is_below(path):
             raise ValueError(f"{path} is not a path below the output folder")
@@ -88,6 +85,30 @@ def write(
         if is_new and not any(home.iterdir()):
             home.rmdir()
     return tuple(str(home / path) for path in files)
+
+
+def outdated(
+    artifacts: Iterable[Artifact | BinaryArtifact], folder: str | os.PathLike[str]
+) -> tuple[str, ...]:
+    """The paths below `folder` that are not what `write` would leave there; nothing is written.
+
+    These are files that are missing or other ones, and files of an earlier run that are not among
+    the artifacts.
+    """
+    home = Path(folder)
+    files = _contents(artifacts)
+    known = _manifest(home)
+    new = [path for path, data in files.items() if not _stands(home, path, {_hash(data)})]
+    old = [path for path in known if path not in files and _stands(home, path, known[path])]
+    return tuple(str(home / path) for path in new + old)
+
+
+def _contents(artifacts: Iterable[Artifact | BinaryArtifact]) -> dict[str, bytes]:
+    """The bytes of each file, by its path."""
+    return {
+        a.path: a.data if isinstance(a, BinaryArtifact) else printable(a.text).encode()
+        for a in artifacts
+    }
 
 
 def _refuse_foreign(home: Path, files: Mapping[str, bytes], known: Mapping[str, set[str]]) -> None:

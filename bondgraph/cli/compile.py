@@ -54,6 +54,12 @@ def arguments(parser: ArgumentParser) -> None:
         help="emit this language, or `fmu` for FMUs (docs/fmu.md); may be repeated (default:"
         f" {', '.join(defaults.targets)})",
     )
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="write nothing; exit with 1 if the files that are there are not what would be written",
+    )
+    parser.add_argument("--quiet", action="store_true", help="print findings, but no result")
     further(parser)
     realised(parser)
 
@@ -74,6 +80,8 @@ def run(args: Namespace) -> int:
     if compilation.options.offsets:
         names = ", ".join(dict(compilation.options.offsets))
         note(f"the code takes samples without the offsets of {names}: take them off before")
+    if args.check:
+        return _check(compilation, args)
     files = _write(compilation, args.output)
     if args.json:
         from bondgraph.cli.result import result
@@ -83,8 +91,34 @@ def run(args: Namespace) -> int:
     from bondgraph.cli.summary import report
 
     console.show(compilation.report.diagnostics)
-    print("\n".join(report(compilation, files)))
+    if not args.quiet:
+        print("\n".join(report(compilation, files)))
     return 0
+
+
+_LISTED = 8  # files that are named
+
+
+def _check(compilation: Compilation, args: Namespace) -> int:
+    """Say which files are not what would be written; the exit status is 1 if there are any."""
+    from bondgraph.backends.write import outdated
+
+    folder = args.output or _default(compilation.source.path)
+    artifacts = compilation.artifacts if compilation.residuals else ()
+    old = outdated(artifacts, folder)
+    if args.json:
+        state = {"status": "error" if old else "ok", "outdated": list(old)}
+        console.print_json({**state, "message": _currency(folder, old)})
+    elif old or not args.quiet:
+        print(_currency(folder, old), file=sys.stderr if old else sys.stdout)
+    return 1 if old else 0
+
+
+def _currency(folder: str, old: tuple[str, ...]) -> str:
+    if not old:
+        return f"{folder} is current"
+    more = f" and {len(old) - _LISTED} more" if len(old) > _LISTED else ""
+    return f"{folder} is not current: {', '.join(old[:_LISTED])}{more}; compile the model again"
 
 
 def _opened(args: Namespace) -> Compilation:

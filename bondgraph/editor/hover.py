@@ -6,13 +6,13 @@ from bondgraph.editor.flat_facts import FlatNode, Quantity, unit_of
 from bondgraph.editor.occurrences import Declaration, ModelNames, Occurrence
 from bondgraph.editor.residual_facts import ResidualFacts
 from bondgraph.editor.workspace import Document
-from bondgraph.ir.causal import CausalGraph
+from bondgraph.ir.causal import CausalGraph, Reason
 from bondgraph.ir.graph import Bond, Value
 from bondgraph.library.elements import KINDS
 from bondgraph.library.units import DOMAINS, Domain
 from bondgraph.notation.dump_stages import bond_name, reason
 from bondgraph.notation.line import show
-from bondgraph.text.numerals import plural
+from bondgraph.text.numerals import listed, plural
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -110,27 +110,37 @@ def _effort_and_flow(domain: Domain) -> str:
 
 
 def _node(item: FlatNode) -> str:
-    graph = item.causal.graph
     node = item.node
     lines = [f"**{node.path}**"]
     if node.domain and node.domain in DOMAINS and node.domain != "any":
         lines.append(_effort_and_flow(DOMAINS[node.domain]))
-    lines += [f"`0 = {show(law.zero)}`" for law in node.laws]
-    lines += [f"- {_stroke(item.causal, bond)}" for bond in item.bonds()]
+    lines += [f"law `0 = {show(law.zero)}`" for law in node.laws]
+    lines += [f"- {stroke_told(item.causal, bond)}" for bond in item.bonds()]
     if any(s.node == item.number and not s.integral for s in item.causal.storages):
         lines.append("- it is in derivative causality: its state follows from others")
     if node.when is not None:
         lines.append(f"on while `{show(node.when)}`")
-    return "  \n".join(lines[:1]) + "\n\n" + "\n".join(lines[1:]) if graph else ""
+    return "\n".join(lines[:1] + [""] + lines[1:]) if lines[1:] else lines[0]
 
 
-def _stroke(causal: CausalGraph, bond: Bond) -> str:
+def stroke_told(causal: CausalGraph, bond: Bond) -> str:
     """Where the stroke of a bond stands, and why."""
     stroke = causal.strokes[bond.number]
     end = bond.tail if stroke.at == "tail" else bond.head
     at = causal.graph.nodes[end.node].path
-    why = reason(causal, stroke.reason)
-    return f"bond {bond_name(causal.graph, bond)}: stroke at `{at}`, {why}"
+    return f"`{bond_name(causal.graph, bond)}`: stroke at `{at}`, {_why(causal, stroke.reason)}"
+
+
+def _why(causal: CausalGraph, found: Reason) -> str:
+    """Why a stroke stands there; the bonds that force it by their names."""
+    if found.cause != "propagated" or not found.because:
+        return reason(causal, found)
+    graph = causal.graph
+    names = [f"`{bond_name(graph, graph.bonds[b])}`" for b in found.because[:_TOLD]]
+    more = len(found.because) - _TOLD
+    if more > 0:
+        names.append(f"{more} more")
+    return f"forced at `{graph.nodes[found.node].path}` by {listed(names, 'and')}"
 
 
 def _quantity(item: Quantity) -> str:
@@ -148,6 +158,6 @@ def _arrow(document: Document, offset: int) -> Hover | None:
     for (start, end), bonds in document.facts.arrows.items():
         if start <= offset <= end and document.facts.names is document.names:
             span = Span(document.source, start, end)
-            lines = [_stroke(causal, bond) for causal, bond in bonds[:_TOLD]]
+            lines = [stroke_told(causal, bond) for causal, bond in bonds[:_TOLD]]
             return Hover(span, "\n\n".join(lines))
     return None

@@ -7,26 +7,35 @@ standard streams, `connect` over anything that carries texts, as a WebSocket doe
 from __future__ import annotations
 
 import asyncio
+import gc
 import json
 import logging
 import sys
 from collections.abc import Callable, Iterable
 from time import perf_counter
+from typing import Any
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 from pygls.uris import from_fs_path, to_fs_path
 
 from bondgraph import __version__
+from bondgraph.editor import semantic_tokens
+from bondgraph.editor.code_lenses import lenses
 from bondgraph.editor.completion import Proposal, complete
 from bondgraph.editor.hover import hover
+from bondgraph.editor.inlay_hints import hints
 from bondgraph.editor.occurrences import Occurrence, Symbol
 from bondgraph.editor.outline_tree import Entry, outline
+from bondgraph.editor.renaming import CannotRename, renamed
 from bondgraph.editor.residual_facts import ResidualFacts
+from bondgraph.editor.soundness import Edited
 from bondgraph.editor.text_positions import Encoding, Place, extent, offset_of
 from bondgraph.editor.workspace import Document, Workspace
 from bondgraph.frontend.formatter import format_text
-from bondgraph.text.diagnostic import Diagnostic, Report
+from bondgraph.pipeline import Options
+from bondgraph.text.diagnostic import CompileError, Diagnostic, Edit, Report
 from bondgraph.text.source import Source, Span
 
 _log = logging.getLogger(__name__)
@@ -189,6 +198,28 @@ class BondGraphServer(LanguageServer):
         source, found = document.checked
         return [self._diagnostic(document, source, d) for d in found.diagnostics]
 
+    def fixes(self, document: Document, place: lsp.Range) -> list[lsp.CodeAction]:
+        """The changes of the text that mend what is found in a part of it."""
+        source, found = document.checked
+        actions = []
+        for diagnostic in found.diagnostics:
+            shown = self._diagnostic(document, source, diagnostic)
+            if shown.range.start <= place.end and place.start <= shown.range.end:
+                actions += [self._fix(edit, shown) for edit in diagnostic.edits]
+        return actions
+
+    def _fix(self, edit: Edit, shown: lsp.Diagnostic) -> lsp.CodeAction:
+        changes: dict[str, list[lsp.TextEdit]] = {}
+        for span, text in edit.changes:
+            uri = self.uri(real_path(span.source.path))
+            changes.setdefault(uri, []).append(lsp.TextEdit(self.range(span), text))
+        return lsp.CodeAction(
+            title=edit.title[0].upper() + edit.title[1:],
+            kind=lsp.CodeActionKind.QuickFix,
+            diagnostics=[shown],
+            edit=lsp.WorkspaceEdit(changes),
+        )
+
     def _diagnostic(
         self, document: Document, source: Source, diagnostic: Diagnostic
     ) -> lsp.Diagnostic:
@@ -275,9 +306,8 @@ def connect(
 def language_server() -> BondGraphServer:
     """A new server with everything that it answers."""
     server = BondGraphServer()
-    _documents(server)
-    _questions(server)
-    _names(server)
+    for part in (_documents, _questions, _names, _renaming, _shown, _pictures):
+        part(server)
     return server
 
 
@@ -301,6 +331,10 @@ def _documents(server: BondGraphServer) -> None:
     def started(ls: BondGraphServer, params: lsp.InitializedParams) -> None:
         folders = ls.workspace.folders.values()
         ls.models.folders = [real_path(folder.uri) for folder in folders]
+        # Garbage in small portions, and none looked for in what stays: else some key waits 0.1 s.
+        gc.collect()
+        gc.freeze()
+        gc.set_threshold(5_000, 3, 50)
 
     @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
     def formatted(
@@ -378,19 +412,21 @@ def _outlined_symbols(ls: BondGraphServer, entries: Iterable[Entry]) -> list[lsp
     ]
 
 
-def _names(server: BondGraphServer) -> None:
-    def at(
-        ls: BondGraphServer, uri: str, position: lsp.Position
-    ) -> tuple[Occurrence, Symbol] | None:
-        document = ls.document(uri)
-        if document is None:
-            return None
-        found = document.names.at(ls.offset(document, position))
-        return None if found is None or found.symbol is None else (found, found.symbol)
+def _at(
+    ls: BondGraphServer, uri: str, position: lsp.Position
+) -> tuple[Occurrence, Symbol] | None:
+    """The name at a position, and what it means."""
+    document = ls.document(uri)
+    if document is None:
+        return None
+    found = document.names.at(ls.offset(document, position))
+    return None if found is None or found.symbol is None else (found, found.symbol)
 
+
+def _names(server: BondGraphServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
     def defined(ls: BondGraphServer, params: lsp.DefinitionParams) -> list[lsp.Location] | None:
-        found = at(ls, params.text_document.uri, params.position)
+        found = _at(ls, params.text_document.uri, params.position)
         if found is None:
             return None
         declared = ls.models.declaration(found[1])
@@ -401,7 +437,7 @@ def _names(server: BondGraphServer) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
     def used(ls: BondGraphServer, params: lsp.ReferenceParams) -> list[lsp.Location] | None:
-        found = at(ls, params.text_document.uri, params.position)
+        found = _at(ls, params.text_document.uri, params.position)
         if found is None:
             return None
         return [
@@ -409,3 +445,119 @@ def _names(server: BondGraphServer) -> None:
             for use in ls.models.uses(found[1])
             if params.context.include_declaration or not use.declares
         ]
+
+    @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
+    def highlighted(
+        ls: BondGraphServer, params: lsp.DocumentHighlightParams
+    ) -> list[lsp.DocumentHighlight] | None:
+        document = ls.document(params.text_document.uri)
+        found = _at(ls, params.text_document.uri, params.position)
+        if found is None or document is None:
+            return None
+        return [
+            lsp.DocumentHighlight(ls.range(use.span))
+            for use in document.names.occurrences
+            if use.symbol == found[1]
+        ]
+
+
+def _renaming(server: BondGraphServer) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)
+    def prepared(ls: BondGraphServer, params: lsp.PrepareRenameParams) -> lsp.Range | None:
+        found = _at(ls, params.text_document.uri, params.position)
+        return None if found is None else ls.range(found[0].span)
+
+    @server.feature(lsp.TEXT_DOCUMENT_RENAME, lsp.RenameOptions(prepare_provider=True))
+    def rename(ls: BondGraphServer, params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
+        found = _at(ls, params.text_document.uri, params.position)
+        if found is None:
+            return None
+        try:
+            places = renamed(ls.models, found[1], params.new_name)
+        except CannotRename as error:
+            raise JsonRpcInvalidParams(str(error)) from error
+        return lsp.WorkspaceEdit(
+            {
+                ls.uri(real_path(path)): [lsp.TextEdit(ls.range(s), params.new_name) for s in spans]
+                for path, spans in places.items()
+            }
+        )
+
+    @server.feature(
+        lsp.TEXT_DOCUMENT_CODE_ACTION,
+        lsp.CodeActionOptions(code_action_kinds=[lsp.CodeActionKind.QuickFix]),
+    )
+    def mended(ls: BondGraphServer, params: lsp.CodeActionParams) -> list[lsp.CodeAction] | None:
+        document = ls.document(params.text_document.uri)
+        return None if document is None else ls.fixes(document, params.range)
+
+
+def _shown(server: BondGraphServer) -> None:
+    """What an editor shows without being asked: colours, hints in the text, lines above it."""
+    legend = lsp.SemanticTokensLegend(
+        list(semantic_tokens.TYPES), list(semantic_tokens.MODIFIERS)
+    )
+
+    @server.feature(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, legend)
+    def coloured(ls: BondGraphServer, params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
+        document = ls.document(params.text_document.uri)
+        data: list[int] = []
+        line = column = 0
+        for token in semantic_tokens.tokens(document.names) if document else ():
+            start, end = extent(token.span, ls.encoding)
+            bits = [1 << semantic_tokens.MODIFIERS.index(m) for m in token.modifiers]
+            step = start.column if start.line > line else start.column - column
+            kind = semantic_tokens.TYPES.index(token.type)
+            data += [start.line - line, step, end.column - start.column, kind, sum(bits)]
+            line, column = start
+        return lsp.SemanticTokens(data)
+
+    @server.feature(lsp.TEXT_DOCUMENT_INLAY_HINT)
+    def hinted(ls: BondGraphServer, params: lsp.InlayHintParams) -> list[lsp.InlayHint] | None:
+        document = ls.document(params.text_document.uri)
+        if document is None:
+            return None
+        start = ls.offset(document, params.range.start)
+        found = hints(document, start, ls.offset(document, params.range.end))
+        return [
+            lsp.InlayHint(
+                position=ls.range(Span(document.source, hint.offset, hint.offset)).start,
+                label=hint.text,
+                tooltip=lsp.MarkupContent(lsp.MarkupKind.Markdown, hint.why),
+            )
+            for hint in found
+        ]
+
+    @server.feature(lsp.TEXT_DOCUMENT_CODE_LENS)
+    def lensed(ls: BondGraphServer, params: lsp.CodeLensParams) -> list[lsp.CodeLens] | None:
+        document = ls.document(params.text_document.uri)
+        if document is None:
+            return None
+        found = lenses(document, ls.residuals.get(document.path))
+        return [lsp.CodeLens(ls.range(lens.span), lsp.Command(lens.text, "")) for lens in found]
+
+
+def _pictures(server: BondGraphServer) -> None:
+    @server.feature("bondgraph/drawing")
+    async def drawn(ls: BondGraphServer, params: Any) -> dict[str, str | None]:
+        """The drawing of a document, {uri}, as {svg}; null with {problem} where there is none."""
+        document = ls.document(str(getattr(params, "uri", "")))
+        if document is None:
+            return {"svg": None, "problem": "the document is not open"}
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(None, drawing, document)
+
+
+def drawing(document: Document) -> dict[str, str | None]:
+    """The picture of the first model that has one, with strokes or with what keeps them away."""
+    problem = "the text has mistakes"
+    for model in (None, *document.names.models):
+        texts = document.workspace.texts
+        own = Edited(document.source, model, Options(open_ports=True), texts)
+        try:
+            return {"svg": own.drawing(), "problem": None}
+        except CompileError as error:
+            problem = str(error)
+            if own.report.diagnostics[-1:] and own.report.diagnostics[-1].code != "several-models":
+                break
+    return {"svg": None, "problem": problem}

@@ -10,6 +10,7 @@ from typing import Literal, TypeAlias
 from bondgraph.frontend.lexer import split
 from bondgraph.ir import syntax
 from bondgraph.library.elements import KINDS, SIGNALS
+from bondgraph.passes.elaboration.files import statements_of
 from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -70,7 +71,7 @@ class ModelNames:
             self._declare(self.values, "argument", generic.name, "argument", generic, "",
                           Span(own.source, generic.origin.start,
                                generic.origin.start + len(generic.name)))  # fmt: skip
-        for statement in _statements(model.body):
+        for statement in statements_of(model.body):
             self._statement(statement)
         self._tie()
 
@@ -150,21 +151,6 @@ def _after_keyword(origin: Span, keyword: str, name: str) -> Span:
     gap = _GAP.match(origin.source.text, origin.start + len(keyword))
     start = gap.end() if gap else origin.start
     return Span(origin.source, start, start + len(name))
-
-
-def _statements(body: tuple[syntax.Statement, ...]) -> Iterator[syntax.Statement]:
-    """All statements of a body, those of its blocks behind each of them."""
-    stack = [iter(body)]
-    while stack:
-        statement = next(stack[-1], None)
-        if statement is None:
-            stack.pop()
-            continue
-        yield statement
-        if isinstance(statement, (syntax.For, syntax.Junction)):
-            stack.append(iter(statement.body))
-        elif isinstance(statement, syntax.If):
-            stack.append(iter(statement.body + statement.otherwise))
 
 
 #: The names of the file at a real path, or None.

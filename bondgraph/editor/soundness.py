@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
-from bondgraph.frontend.parser import parse
 from bondgraph.frontend.read import decode
 from bondgraph.passes.elaboration.files import unused
 from bondgraph.pipeline import Compilation, Options
@@ -43,7 +42,7 @@ def soundness(compilation: Compilation) -> Soundness:
             sound.append(part)
             found = tuple(part.report.diagnostics)
         except CompileError as error:
-            failures.append(error)
+            failures.append(error.with_traceback(None))  # its frames would keep all that was made
             found = error.diagnostics
         for diagnostic in found:
             report.add(diagnostic)
@@ -54,14 +53,11 @@ def _parts(compilation: Compilation) -> list[Compilation]:
     """The compilation itself, or one for each model of a library."""
     if compilation.model is not None:
         return [compilation]
-    file = parse(compilation.source, Report())
-    names = [] if file is None else unused(file.models)
-    if len(names) < 2:
-        return [compilation]
-    kind, source, options = type(compilation), compilation.source, compilation.options
-    if not isinstance(compilation, Edited):
-        return [kind(source, name, options) for name in names]
-    return [Edited(source, name, options, compilation.texts) for name in names]
+    try:
+        names = unused(compilation.syntax.models)
+    except CompileError:
+        return [compilation]  # it says what is wrong
+    return [compilation.of(name) for name in names] if len(names) > 1 else [compilation]
 
 
 class Edited(Compilation):
@@ -74,6 +70,10 @@ class Edited(Compilation):
     ) -> None:
         super().__init__(source, model, options)
         vars(self).update(texts=texts)
+
+    def of(self, model: str) -> Edited:
+        """Another model of the same file, with the same texts."""
+        return self._sharing(Edited(self.source, model, self.options, self.texts))
 
     def _read(self, path: str, origin: Span) -> Source | None:
         text = self.texts.get(os.path.realpath(path))

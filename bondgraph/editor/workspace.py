@@ -24,8 +24,8 @@ _LETTERS = 2_000_000
 class Document:
     """One text that is open: what `check` says of it, and what its names mean.
 
-    All is found when it is asked for and holds for one text; another text is another document,
-    which knows the one `before` it for what a text with mistakes cannot say.
+    All is found when it is asked for and holds for one text; another text is another document.
+    `sound_one` is the last one before it without mistakes, for what a text with some cannot say.
     """
 
     def __init__(
@@ -34,7 +34,12 @@ class Document:
         self.path = path
         self.text = text
         self.workspace = workspace
-        self._before = before
+        self.sound_one: Document | None = None
+        if before is not None:
+            checked = "checked" in vars(before)
+            self.sound_one = before if checked and before.checked[1].sound else before.sound_one
+        if self.sound_one is not None:
+            self.sound_one.sound_one = None
 
     @cached_property
     def checked(self) -> tuple[Source, Soundness]:
@@ -55,9 +60,8 @@ class Document:
     def facts(self) -> FlatFacts:
         """What is known of the models of the text; of an earlier one where this has mistakes."""
         sound = self.checked[1].sound
-        before, self._before = self._before, None
-        if not sound and before is not None:
-            return before.facts
+        if not sound and self.sound_one is not None:
+            return self.sound_one.facts
         return FlatFacts(sound, self.names)
 
     @property

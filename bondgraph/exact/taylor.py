@@ -16,7 +16,7 @@ from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.known import KnownSample, gradient
 from bondgraph.exact.offsets import Offsets, offsets
-from bondgraph.exact.plant_equations import Equation, Setting, coefficient_row
+from bondgraph.exact.plant_equations import Equation, Setting, coefficient_row, signature
 from bondgraph.exact.point import STRIDE, Point
 from bondgraph.exact.rest import settled
 from bondgraph.field.numbers import Number
@@ -47,7 +47,8 @@ class _System(NamedTuple):
 
 
 def _structure(plant: Assembly, equations: list[Equation]) -> _System:
-    found = offsets([e.signature for e in equations], plant.count_of)
+    free = frozenset((*plant.free, *plant.unknown))
+    found = offsets([signature(plant.place, free, e) for e in equations], plant.count_of)
     if found.unmatched:
         raise OverDetermined(equations[found.unmatched[0]].node)
     return _System(equations, found, found.free)

@@ -130,5 +130,10 @@ def replacing(span: Span, text: str, words: str = "") -> Remedy:
     >>> replacing(Span(Source("a.bg", "parm"), 0, 4), "param").text
     'Did you mean `param`?'
     """
-    edit = Edit(f"write `{text}`", ((span, text),))
+    edit = Edit(f"write `{text.strip()}`", ((span, text),))
     return Remedy(words or f"Did you mean `{text}`?", (edit,))
+
+
+def removing(span: Span, words: str) -> Remedy:
+    """To leave out what stands at a place."""
+    return Remedy(words, (Edit("leave it out", ((span, ""),)),))

@@ -11,7 +11,7 @@ import pytest
 from bondgraph.cli.main import main
 from bondgraph.text import limits
 from bondgraph.text.foreign_data import WrongData, json_data, toml_data
-from tests.docs.test_docs import ROOT
+from tests.docs.pages import ROOT
 from tests.unit.runtime.live.rover import MODEL, SCENARIO
 
 #: The first words of the row that says each limit.

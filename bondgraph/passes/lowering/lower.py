@@ -111,12 +111,11 @@ def lower(
     exactly = Exactly(builder)
     filter = Filter(builder)
     switched = Switched(builder, filter, residuals.system)
-    tapes: list[Large | None] = []
     time_unit = options.time_unit
-    for residual, form in zip(residuals.residuals, forms, strict=True):
-        tapes.append(
-            None if form.tape is None else large(builder, residual, form.tape, options.rate)
-        )
+    tapes = [
+        None if form.tape is None else large(builder, residual, form.tape, options.rate, HIGHEST)
+        for residual, form in zip(residuals.residuals, forms, strict=True)
+    ]
     if time_unit is None:
         time_unit = max([t.time_unit for t in tapes if t is not None], default=1.0)
     lowered: list[_Lowered] = []
@@ -286,7 +285,7 @@ def _visible(
     builder: Builder, form: NormalForm, tape: Large | None, options: LowerOptions
 ) -> Seen | str:
     if tape is not None:
-        return tape.seen(builder, options.rate, options.resolution, HIGHEST)
+        return tape.seen(builder, options.rate, options.resolution)
     return seen(builder, form.terms, options.rate, options.resolution)
 
 
