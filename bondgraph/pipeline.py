@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from typing import TypedDict, Unpack
 
     from bondgraph.backends.decision import Tuned
+    from bondgraph.backends.drawing.scene import Look
     from bondgraph.backends.write import Change
     from bondgraph.derivations import Derivations
     from bondgraph.exact.plant import Plant
@@ -800,19 +801,25 @@ class Compilation:
 
         return conflicts(self.graph)
 
-    def drawing(self, derivative: bool = False, bare: bool = False) -> str:
+    def drawing(
+        self, derivative: bool = False, bare: bool = False, look: Look | None = None
+    ) -> str:
         """The bond graph with its causal strokes, or with what keeps them from being placed.
 
         As SVG, one self-contained text; a `bare` one for inside of a page that has its colours.
+        `look` says what else is shown, see `backends.drawing.scene`.
         """
+        from bondgraph.backends.drawing.scene import Look
+
+        chosen = look or Look()
         if self.conflicts:
             from bondgraph.backends.figure import draw_conflicts
 
-            return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare)
+            return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare, chosen)
         from bondgraph.backends.figure import draw
 
         causal = self.derivative if derivative else self.integral
-        return draw(causal, self.graph.name, bare)
+        return draw(causal, self.graph.name, bare, chosen)
 
     def _repr_html_(self) -> str:
         """The drawing, the relations and the signatures, for a notebook."""
