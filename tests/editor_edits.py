@@ -280,6 +280,7 @@ def main() -> None:
     parser.add_argument("--write", action="store_true", help="write the table into its page")
     args = parser.parse_args()
     command = f"python -m tests.editor_edits --edits {args.edits}"
+    command += f" --seed {args.seed}" if args.seed != 1 else ""
     if not args.times:
         with tempfile.TemporaryDirectory() as folder:
             found = asyncio.run(campaign(args.edits, args.seed, Path(folder).resolve()))

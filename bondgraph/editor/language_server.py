@@ -30,7 +30,7 @@ from bondgraph.editor.occurrences import Occurrence, Symbol
 from bondgraph.editor.outline_tree import Entry, outline
 from bondgraph.editor.renaming import CannotRename, renamed
 from bondgraph.editor.residual_facts import ResidualFacts
-from bondgraph.editor.soundness import Edited
+from bondgraph.editor.soundness import Edited, check_text
 from bondgraph.editor.text_positions import Encoding, Place, extent, offset_of
 from bondgraph.editor.workspace import Document, Workspace
 from bondgraph.frontend.formatter import format_text
@@ -39,6 +39,14 @@ from bondgraph.text.diagnostic import CompileError, Diagnostic, Edit, Report
 from bondgraph.text.source import Source, Span
 
 _log = logging.getLogger(__name__)
+
+#: Texts that have most parts of `check` at work: a sound one, and mistakes of some kinds.
+_FIRST = (
+    "bg 1\nmodel M { param R = 2 Ohm; 1:j { <- Se:U; -> R:R; -> C:c = 1; -> Df:i } }\n",
+    "bg 1\nmodel M { parm R = 2 Ohm; 1:j { <- Se:U; -> R:R } }\n",
+    "bg 1\nmodel M { param R = 2 H; port p : in electrical; p -> R:R; Re -> R }\n",
+    "bg 1\nmodel M { Se:A -> 0:j; Se:B -> j; j -> R:r = 2 }\n",
+)
 
 #: Seconds without a key before residuals are computed.
 _QUIET = 0.8
@@ -331,6 +339,8 @@ def _documents(server: BondGraphServer) -> None:
     def started(ls: BondGraphServer, params: lsp.InitializedParams) -> None:
         folders = ls.workspace.folders.values()
         ls.models.folders = [real_path(folder.uri) for folder in folders]
+        for text in _FIRST:  # what checks load is loaded before the first key
+            check_text("first.bg", text, {})
         # Garbage in small portions, and none looked for in what stays: else some key waits 0.1 s.
         gc.collect()
         gc.freeze()
