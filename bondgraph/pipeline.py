@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from typing import TypedDict, Unpack
 
     from bondgraph.backends.decision import Tuned
+    from bondgraph.backends.drawing.scene import Look
+    from bondgraph.backends.write import Change
     from bondgraph.derivations import Derivations
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
@@ -40,6 +42,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.syntax import File
     from bondgraph.passes.elimination.state_equations import Wanted
     from bondgraph.passes.lowering.lower import LowerOptions
+    from bondgraph.picture import Picture
     from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
     from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
     from bondgraph.runtime.diagnosis.parameter_fit import Fitted
@@ -49,7 +52,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
-    from bondgraph.views import Relations
+    from bondgraph.views import Relations, Signatures
 
 T = TypeVar("T")
 Own = TypeVar("Own", bound="Compilation")
@@ -387,6 +390,28 @@ class Compilation:
                 run.log.columns[item.name] = run.log.columns[item.name] + item.offset
         return run
 
+    def plot(
+        self, runs: Run | Mapping[str, Run], signals: Sequence[str] = (), title: str = ""
+    ) -> Picture:
+        """A picture of a run, or of several by label: a strip for each signal, a line for each run.
+
+        `signals` are columns of the log or of the truth (states, true values), without any all of
+        the log. A notebook shows the picture; `write(path)` makes a .png, .svg, .pdf or .html of
+        it. Raises KeyError for what is no signal, `Trouble` without matplotlib.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> run = c.simulate(bondgraph.Scenario("still", duration=0.1))
+        >>> c.plot({"at rest": run}, ["speed"])
+        <picture of speed: at rest>
+        """
+        from collections.abc import Mapping
+
+        from bondgraph.picture import Picture
+
+        found = runs if isinstance(runs, Mapping) else {"": runs}
+        return Picture(f"{self.graph.name}{title and f': {title}'}", found, tuple(signals))
+
     def with_biases(self, scenario: Scenario) -> Scenario:
         """A scenario whose instruments have the offsets of sensors (`Options`) as biases too."""
         from bondgraph.runtime.simulation.scenario import Instrument
@@ -397,6 +422,23 @@ class Compilation:
                 own = found.get(sensor.name, Instrument())
                 found[sensor.name] = own._replace(bias=own.bias + sensor.offset)
         return scenario._replace(instruments=found)
+
+    def changes(
+        self, folder: str | os.PathLike[str], targets: Sequence[str] | None = None
+    ) -> tuple[Change, ...]:
+        """What `write` would do below `folder`, file by file, without doing it.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> {change.what for change in c.changes("generated/dc_motor")}
+        {'same'}
+        """
+        from bondgraph.backends.write import changes
+
+        if not self.residuals:
+            return ()
+        own = self.artifacts if targets is None else self._emitted(tuple(targets))
+        return changes(own, folder)
 
     @cached_property
     def structure(self) -> StructuralModel:
@@ -443,7 +485,7 @@ class Compilation:
         return Derivations(self.graph, derive(residual, self.graph, shown))
 
     @cached_property
-    def signatures(self) -> SignatureMatrix:
+    def signatures(self) -> Signatures:
         """The fault signature matrix: which residual sees which fault.
 
         >>> import bondgraph
@@ -451,7 +493,9 @@ class Compilation:
         >>> matrix.signature("r1"), matrix.to_numpy().shape
         (('L', 'R', 'k', 'U', 'current', 'speed'), (9, 2))
         """
-        return self._shown[2]
+        from bondgraph.views import Signatures
+
+        return Signatures(*self._shown[2])
 
     @cached_property
     def mode_signatures(self) -> ModeSignatures:
@@ -757,19 +801,25 @@ class Compilation:
 
         return conflicts(self.graph)
 
-    def drawing(self, derivative: bool = False, bare: bool = False) -> str:
+    def drawing(
+        self, derivative: bool = False, bare: bool = False, look: Look | None = None
+    ) -> str:
         """The bond graph with its causal strokes, or with what keeps them from being placed.
 
         As SVG, one self-contained text; a `bare` one for inside of a page that has its colours.
+        `look` says what else is shown, see `backends.drawing.scene`.
         """
+        from bondgraph.backends.drawing.scene import Look
+
+        chosen = look or Look()
         if self.conflicts:
             from bondgraph.backends.figure import draw_conflicts
 
-            return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare)
+            return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare, chosen)
         from bondgraph.backends.figure import draw
 
         causal = self.derivative if derivative else self.integral
-        return draw(causal, self.graph.name, bare)
+        return draw(causal, self.graph.name, bare, chosen)
 
     def _repr_html_(self) -> str:
         """The drawing, the relations and the signatures, for a notebook."""

@@ -155,6 +155,23 @@ class Relation:
         return f"$\\displaystyle {self.latex}$"
 
 
+class Signatures(SignatureMatrix):
+    """The fault signature matrix of a model, as text, as HTML in a notebook, or in LaTeX."""
+
+    def to_latex(self) -> str:
+        r"""The matrix as a `tabular` of LaTeX, with a line between groups of equal signatures.
+
+        >>> import bondgraph
+        >>> lines = bondgraph.compile("models/dc_motor.bg").signatures.to_latex().splitlines()
+        >>> print(lines[2], lines[4], sep="\n")
+         & $r_{1}$ & $r_{2}$ & $M_b$ & $I_b$ \\
+        $L$ & 1 & $\cdot$ & 1 & $\cdot$ \\
+        """
+        from bondgraph.notation.latex_table import latex_table
+
+        return latex_table(self)
+
+
 class Relations(Sequence[Relation]):
     """All relations of a model in stable order; by position or by name.
 

@@ -23,6 +23,7 @@ from bondgraph.ir.artifact import Artifact, BinaryArtifact
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
 from bondgraph.text.printable import printable
+from bondgraph.text.tuples import NamedTuple
 from bondgraph.text.whole_file import (
     folder_aside,
     naming,
@@ -87,6 +88,35 @@ def write(
     return tuple(str(home / path) for path in files)
 
 
+class Change(NamedTuple):
+    """What `write` would do to a file: new, changed, same, removed, or foreign: it would refuse."""
+
+    path: str
+    what: Literal["new", "changed", "same", "removed", "foreign"]
+
+
+def changes(
+    artifacts: Iterable[Artifact | BinaryArtifact], folder: str | os.PathLike[str]
+) -> tuple[Change, ...]:
+    """What `write` would do below a folder, file by file, in order; nothing is touched.
+
+    Raises OSError for a folder that cannot be read.
+    """
+    home = Path(folder)
+    known, files = _manifest(home), _contents(artifacts)
+    found = []
+    for path, data in files.items():
+        own = _hash(data)
+        if _is_foreign(home, path, known.get(path, set()) | {own}):
+            found.append(Change(path, "foreign"))
+        elif _at(home, path) == "nothing":
+            found.append(Change(path, "new"))
+        else:
+            found.append(Change(path, "same" if _stands(home, path, {own}) else "changed"))
+    old = [p for p in known if p not in files and _stands(home, p, known[p])]
+    return (*found, *[Change(path, "removed") for path in old])
+
+
 def outdated(
     artifacts: Iterable[Artifact | BinaryArtifact], folder: str | os.PathLike[str]
 ) -> tuple[str, ...]:
@@ -95,12 +125,7 @@ def outdated(
     These are files that are missing or other ones, and files of an earlier run that are not among
     the artifacts.
     """
-    home = Path(folder)
-    files = _contents(artifacts)
-    known = _manifest(home)
-    new = [path for path, data in files.items() if not _stands(home, path, {_hash(data)})]
-    old = [path for path in known if path not in files and _stands(home, path, known[path])]
-    return tuple(str(home / path) for path in new + old)
+    return tuple(str(Path(folder) / c.path) for c in changes(artifacts, folder) if c.what != "same")
 
 
 def _contents(artifacts: Iterable[Artifact | BinaryArtifact]) -> dict[str, bytes]:

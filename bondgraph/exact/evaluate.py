@@ -128,7 +128,7 @@ def weighed(numbers: Numbers, coefficient: Rational) -> Number:
 
 def _power(numbers: Numbers, x: Number, exponent: int) -> Number:
     base = x if exponent > 0 else numbers.inverse(x)
-    return base ** abs(exponent)
+    return base if exponent in (1, -1) else base ** abs(exponent)
 
 
 def _number_slopes(
@@ -146,11 +146,12 @@ def _number_slopes(
             for c, a in zip(node.coefficients, node.args, strict=True):
                 adjoints[a] = adjoints.get(a, 0) + weighed(numbers, c) * adjoint
         elif node.op is Op.MUL:
-            for a, e in zip(node.args, node.exponents, strict=True):
+            powers = [_power(numbers, values[a], e) for a, e in node.factors]
+            for at, (a, e) in enumerate(node.factors):
                 slope = adjoint if e == 1 else adjoint * e * _power(numbers, values[a], e - 1)
-                for b, f in zip(node.args, node.exponents, strict=True):
-                    if b is not a:
-                        slope *= values[b] if f == 1 else _power(numbers, values[b], f)
+                for k, power in enumerate(powers):
+                    if k != at:
+                        slope *= power
                 adjoints[a] = adjoints.get(a, 0) + slope
     return out
 

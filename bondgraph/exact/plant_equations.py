@@ -279,11 +279,11 @@ def coefficient_row(numbers: Numbers, form: Form, order: int, stride: int) -> Ro
                 row[CONSTANT] = weights[order]
             continue
         variable, derivative = divmod(key, ORDERS)
-        for m, weight in enumerate(weights[: order + 1]):
+        for m, weight in enumerate(weights if len(weights) == 1 else weights[: order + 1]):
             if weight:
                 low = order - m
-                for k in range(low + 1, low + derivative + 1):
+                for k in range(low + 1, low + derivative + 1) if derivative else ():
                     weight *= k
                 column = variable * stride + low + derivative
-                row[column] = row.get(column, 0) + weight
+                row[column] = row[column] + weight if column in row else weight
     return {c: x for c, x in row.items() if numbers.nonzero(x)}

@@ -190,10 +190,10 @@ def _residue(equation: Equation, order: int, values: list[Series], sample: Known
             continue
         variable, derivative = divmod(key, ORDERS)
         known = values[variable]
-        for m, weight in enumerate(weights[: order + 1]):
+        for m, weight in enumerate(weights if len(weights) == 1 else weights[: order + 1]):
             at = order - m + derivative
             if at < len(known):
-                for k in range(order - m + 1, at + 1):
+                for k in range(order - m + 1, at + 1) if derivative else ():
                     weight *= k
                 total += weight * known[at]
     if equation.rest is not None:

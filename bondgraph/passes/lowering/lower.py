@@ -385,13 +385,11 @@ def _plain(value: object) -> object:
     """The value without places, which name files of the machine."""
     if not isinstance(value, tuple):
         return value
-    plain = [_plain(v) if isinstance(v, tuple) else v for v in value]
-    fields = getattr(value, "_fields", None)
-    if fields is None:
-        return tuple(plain)
+    if type(value) is tuple:
+        return tuple([_plain(v) if isinstance(v, tuple) else v for v in value])
     kept = [
-        own
-        for name, own in zip(fields, plain, strict=True)
+        _plain(own) if isinstance(own, tuple) else own
+        for name, own in zip(value._fields, value, strict=True)  # type: ignore[attr-defined]
         if name != "origin" and (own or name not in _ADDED)
     ]
     return (type(value).__name__, *kept)
