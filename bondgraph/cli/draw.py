@@ -34,20 +34,20 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Write the figure, with --watch after each change."""
-    used: set[str] = set()
+    kind = _kind(args.output)
     if not args.watch:
-        return _drawn(args, used)
-    return watched(lambda: _drawn(args, used), [args.model], lambda: used)
+        return _drawn(args, kind, set())
+    used: set[str] = set()
+    return watched(lambda: _drawn(args, kind, used), [args.model], lambda: used)
 
 
-def _drawn(args: Namespace, used: set[str]) -> int:
+def _drawn(args: Namespace, kind: str, used: set[str]) -> int:
     """Write the figure; where strokes cannot be placed, one that shows why, with the status 1.
 
     The files that it was read from become `used`.
     """
     from bondgraph.backends.drawing.scene import Look
 
-    kind = _kind(args.output)
     compilation = compile(args.model, open_ports=True)
     used |= sources_of(compilation.graph)
     conflicts = compilation.conflicts
