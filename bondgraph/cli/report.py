@@ -35,6 +35,11 @@ def arguments(parser: ArgumentParser) -> None:
         default=[],
         help="simulate this, watch it, and show both (docs/simulation.md); may be repeated",
     )
+    parser.add_argument(
+        "--derive",
+        action="store_true",
+        help="show how each residual follows from the equations, each step done by SymPy",
+    )
     sampling(parser)
     signals(parser)
     further(parser)
@@ -59,7 +64,7 @@ def run(args: Namespace) -> int:
         return assumed(args, given, program)
 
     with console.progress(STAGES) as advance:
-        content = collect(compilation, assume, advance)
+        content = collect(compilation, assume, advance, args.derive)
     if content.status in ("ok", "no_arr"):
         runs = runs or _simulated(compilation, args.scenario)
         content = content._replace(episodes=_episodes(compilation, runs))

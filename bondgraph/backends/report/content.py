@@ -28,6 +28,14 @@ class PathLine(NamedTuple):
     node: str
 
 
+class DerivedStep(NamedTuple):
+    """A step of a derivation: what is done, its equations, what cancels or must not be zero."""
+
+    words: str
+    html: tuple[str, ...]
+    remark: str
+
+
 class RelationPart(NamedTuple):
     """One relation: formulas, path, what it sees. `notes` are sentences on its limits."""
 
@@ -42,6 +50,7 @@ class RelationPart(NamedTuple):
     weak: tuple[str, ...]
     orders: tuple[tuple[str, tuple[str, ...]], ...]  # highest derivative, html of the signals
     notes: tuple[str, ...]
+    derivation: tuple[tuple[str, tuple[DerivedStep, ...], str], ...] = ()  # title, steps, ending
 
 
 class MatrixRow(NamedTuple):

@@ -64,6 +64,10 @@ class Typesetter:
         """0 = `zero`."""
         return self._line("<mn>0</mn>", zero, ROOM)
 
+    def continued(self, value: Expr) -> str:
+        """= `value`, below an equation."""
+        return self._line("", value, ROOM)
+
     def _line(self, head: str, value: Expr, room: float) -> str:
         formula = Reader({}, self.starts).of(value)
         return _row(head, pieces(MathML(self.name), formula, room))

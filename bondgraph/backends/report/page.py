@@ -96,6 +96,10 @@ def _graph(content: Content) -> dict[str, Any]:
             "closing_html": markup(r.closing_html),
             "orders": [(order, [markup(s) for s in signals]) for order, signals in r.orders],
             "against": any(line.leaves for line in r.path),
+            "derivation": [
+                (title, [s._replace(html=tuple(map(markup, s.html))) for s in steps], ending)
+                for title, steps, ending in r.derivation
+            ],
         }
         for r in content.relations
     ]

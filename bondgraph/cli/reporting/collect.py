@@ -39,6 +39,7 @@ def collect(
     compilation: Compilation,
     assume: Callable[[Program], Assumed],
     advance: Callable[[str], None] = lambda _: None,
+    derive: bool = False,
 ) -> Content:
     """The content of the report; `assume` says what the signals of the residual program are.
 
@@ -73,7 +74,7 @@ def collect(
     advance("signals")
     situation = assume(program) if program is not None and found.residuals else None
     advance("formulas")
-    told = relations(compilation, typesetter, program)
+    told = relations(compilation, typesetter, program, derive)
     advance("signatures")
     marked = matrix(compilation, program)
     advance("sizes")

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from bondgraph.algebra.present import parts
-from bondgraph.backends.report.content import PathLine, RelationPart
+from bondgraph.backends.report.content import DerivedStep, PathLine, RelationPart
 from bondgraph.backends.report.formulas import Typesetter, operations
 from bondgraph.ir.program import Program
+from bondgraph.notation.derivation_words import ending, headline, lines, remark, title
 from bondgraph.notation.dump_stages import place, residual_origin
+from bondgraph.notation.line import show
 from bondgraph.passes.relation.path import path
 from bondgraph.pipeline import Compilation
 from bondgraph.text.numerals import plural
@@ -20,14 +22,21 @@ _ROOM = 800_000  # characters of a page: with hundreds of relations the first ar
 
 
 def relations(
-    compilation: Compilation, typesetter: Typesetter, program: Program | None
+    compilation: Compilation, typesetter: Typesetter, program: Program | None, derive: bool = False
 ) -> tuple[RelationPart, ...]:
-    """All relations, in order; `program` knows what `step` cannot see (None: there is none)."""
+    """All relations, in order; `program` knows what `step` cannot see (None: there is none).
+
+    With `derive` each has its derivation.
+    """
     left = _ROOM
     found = []
     for relation in compilation.residuals:
         part = _relation(compilation, typesetter, relation, program, left > 0)
         left -= sum(map(len, part.html)) + sum(len(line.html) for line in part.path)
+        if derive and left > 0:
+            part = part._replace(derivation=_derivation(compilation, typesetter, relation.name))
+            steps = [step for _, own, _ in part.derivation for step in own]
+            left -= sum(len(line) for step in steps for line in step.html)
         found.append(part)
     return tuple(found)
 
@@ -51,7 +60,7 @@ def _relation(
             f"{plural(size, 'operation')}, not written out here;"
             f" bondgraph explain {source.path.rpartition('/')[2]} {relation.name} prints them."
         )
-    lines, longer = _path(compilation, typesetter, relation) if room else ((), 0)
+    listed, longer = _path(compilation, typesetter, relation) if room else ((), 0)
     weak = compilation.detectability.weak(relation.name) or ()
     closing = residual.closing.zero
     modes = {i.name for i in compilation.graph.inputs if i.mode}
@@ -61,7 +70,7 @@ def _relation(
         residual_origin(residual, source),
         html,
         too_long,
-        lines,
+        listed,
         typesetter.vanishing(closing) if operations(closing) <= LONGEST else "",
         longer,
         tuple(f for f in relation.faults if f not in weak),
@@ -94,7 +103,7 @@ def _path(
     nodes = compilation.graph.nodes
     steps = list(zip(taken, relation.residual.steps, strict=True))
     shown = steps if len(steps) <= _STEPS else steps[: _STEPS // 2] + steps[-_STEPS // 2 :]
-    lines = []
+    listed = []
     for step, found in shown:
         if operations(step.expr) <= LONGEST // 2:
             html = typesetter.assigned(step.variable, step.expr)
@@ -103,8 +112,33 @@ def _path(
         where = place(step.origin, compilation.source)
         at = found.equation.node
         node = nodes[at].path if at >= 0 else ""
-        lines.append(PathLine(html, step.why, where, step.leaves, node))
-    return tuple(lines), len(steps) - len(shown)
+        listed.append(PathLine(html, step.why, where, step.leaves, node))
+    return tuple(listed), len(steps) - len(shown)
+
+
+def _derivation(
+    compilation: Compilation, typesetter: Typesetter, name: str
+) -> tuple[tuple[str, tuple[DerivedStep, ...], str], ...]:
+    """Title, steps and ending; of a relation with one in each position of a switch, of each."""
+    found = []
+    for own in compilation.derivation(name):
+        zero, steps = own.pool.zero, []
+        for step in own.steps:
+            html = []
+            for left, right, note in lines(step, zero):
+                if operations(right) > LONGEST:
+                    continue
+                if left is None:
+                    line = typesetter.continued(right)
+                elif left is zero:
+                    line = typesetter.vanishing(right)
+                else:
+                    line = typesetter.assigned(left.symbol.name, right)
+                html.append(f'{line}<span class="why">{note}</span>' if note else line)
+            words = headline(own, step, compilation.source, show)
+            steps.append(DerivedStep(words, tuple(html), remark(step, show)))
+        found.append((title(own, compilation.graph.name), tuple(steps), ending(own)))
+    return tuple(found)
 
 
 def _notes(compilation: Compilation, relation: Relation, program: Program | None) -> list[str]:

@@ -260,6 +260,20 @@ until = "8.9 s"
 """
 
 
+def test_derivations_stand_below_their_residuals_where_they_are_asked_for(tmp_path: Path) -> None:
+    model, page = str(ROOT / "models" / "dc_motor.bg"), tmp_path / "m.html"
+    assert main(["report", model, "-o", str(page)]) == 0
+    assert "SymPy" not in page.read_text()
+    assert main(["report", model, "--derive", "-o", str(page)]) == 0
+    text = page.read_text()
+    first, second = text.split('<details class="derivation">')[1:]
+    assert first.startswith("\n<summary>Derivation of r1 of Motor</summary>")
+    assert first.partition("</details>")[0].count("<li>") == 8
+    assert "storage L, line 15: differentiate its state for L.e" in first
+    assert "SymPy agrees: what it derived is the compiler&#39;s r2 times -1." in second
+    assert "&lt;math" not in text
+
+
 def test_a_scenario_is_simulated_watched_and_shown(tmp_path: Path) -> None:
     scenario = tmp_path / "warm.toml"
     scenario.write_text(SCENARIO, encoding="utf-8")
