@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 
 from bondgraph import Compilation, Options
 from bondgraph.cli import console
@@ -54,8 +54,32 @@ def arguments(parser: ArgumentParser) -> None:
         help="emit this language, or `fmu` for FMUs (docs/fmu.md); may be repeated (default:"
         f" {', '.join(defaults.targets)})",
     )
+    parser.add_argument(
+        "--with",
+        dest="extras",
+        metavar="WHAT",
+        type=_extras,
+        default=(),
+        help="write more: tests, exact, example, separated by commas, each in a folder of its own",
+    )
+    parser.add_argument(
+        "--libm",
+        action="store_true",
+        help="call tanh of the mathematical library, not one that is 1e-8 near it",
+    )
     further(parser)
     realised(parser)
+
+
+def _extras(text: str) -> tuple[str, ...]:
+    from bondgraph.backends.emit import EXTRAS
+
+    found = tuple(dict.fromkeys(filter(None, (word.strip() for word in text.split(",")))))
+    for name in found:
+        if name not in EXTRAS:
+            listed = ", ".join(EXTRAS)
+            raise ArgumentTypeError(f"nothing is called {name}; there are {listed}")
+    return found
 
 
 def run(args: Namespace) -> int:
@@ -100,6 +124,7 @@ def _opened(args: Namespace) -> Compilation:
         args.bandwidth = None
     args.rate = args.rate or (Options().rate if tuning is None else tuning.rate)
     compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
+    compilation = compilation.with_options(extras=args.extras, libm=args.libm)
     if tuning is None:
         return compilation
     try:

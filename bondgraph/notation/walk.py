@@ -13,6 +13,7 @@ from bondgraph.ir.program import (
     Const,
     Dot,
     Expression,
+    First,
     Function,
     Logic,
     Mode,
@@ -30,7 +31,7 @@ from bondgraph.notation.dialect import is_written_out
 def operands(value: Expression | Condition) -> tuple[Expression | Condition, ...]:
     """What a node is directly made of."""
     match value:
-        case Const() | Ref() | Mode():
+        case Const() | Ref() | Mode() | First():
             return ()
         case Sum():
             return tuple(term for _, term in value.terms)
