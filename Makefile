@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random real mutants faults kills account clean
+.PHONY: help run demo robots test check lint types imports docs site wheel bench vscode edits update fuzz random real mutants faults kills account vendored clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -46,10 +46,10 @@ demo: $(VENV)/run.stamp ## the paper's experiments: simulated, watched, written 
 test: $(VENV)/dev.stamp ## all tests
 	$(BIN)/python -m pytest -n $(or $(JOBS),auto) --maxprocesses 8 --dist loadfile $(TESTS)
 
-check: lint types imports test wheel ## all that CI runs
+check: lint types imports test site wheel ## all that CI runs
 
 lint: $(VENV)/dev.stamp ## style of the Python code, format of the models
-	$(BIN)/ruff check bondgraph tests
+	$(BIN)/ruff check bondgraph tests docs/site
 	$(BIN)/bondgraph format --check models/*.bg
 
 types: $(VENV)/dev.stamp ## strict type check
@@ -60,6 +60,9 @@ imports: $(VENV)/dev.stamp ## the layers of the house
 
 docs: $(VENV)/dev.stamp ## the examples and links of the documentation
 	$(BIN)/python -m pytest tests/docs
+
+site: $(VENV)/dev.stamp ## the site of the documentation in build/site/html; a warning is an error
+	$(BIN)/python docs/site/build.py
 
 wheel: $(VENV)/dev.stamp ## build the wheel, install it elsewhere, compile a model without the checkout
 	PYTHON=$(BIN)/python .ci/wheel
@@ -78,6 +81,14 @@ bench: $(VENV)/bench.stamp ## medians of the times that matter, with their ratio
 	BONDGRAPH_BENCH_PYTHON=$(VENV)/toolbox/bin/python \
 	BONDGRAPH_BENCH_PEERS=$(VENV)/toolbox:$(VENV)/newer \
 	$(BIN)/python -m tests.bench $(if $(SHORT),--short)
+
+vscode: ## the extension for VS Code, tested and packed in editors/vscode/dist; needs npm
+	npm --prefix editors/vscode ci --ignore-scripts
+	npm --prefix editors/vscode test
+	npm --prefix editors/vscode run pack
+
+edits: $(VENV)/dev.stamp ## 10 000 random edits through the language server, compared with check; half an hour
+	$(BIN)/python -m tests.editor_edits $(if $(SEED),--seed $(SEED))
 
 update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model > /dev/null || exit 1; done
@@ -107,6 +118,9 @@ kills: $(VENV)/dev.stamp ## monitors of every source, each killed 200 times at r
 
 account: $(VENV)/dev.stamp ## an hour at 1 kHz with a disturbance every minute: the account adds up; some minutes
 	$(BIN)/python -m tests.account $(if $(SEED),--seed $(SEED))
+
+vendored: ## what the workbench uses of npm, built anew: the same versions give the same bytes
+	cd vendor && npm ci && node build.mjs
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

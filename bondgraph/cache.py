@@ -17,7 +17,7 @@ from pathlib import Path
 
 from bondgraph.text.whole_file import write_bytes
 
-_KEPT = 100  # files of one kind
+_KEPT = 300  # files of one kind, more than the templates of two installations
 _WRITABLE = stat.S_IWGRP | stat.S_IWOTH
 
 

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from typing import TypedDict, Unpack
 
     from bondgraph.backends.decision import Tuned
+    from bondgraph.backends.drawing.scene import Look
+    from bondgraph.backends.write import Change
+    from bondgraph.derivations import Derivations
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
     from bondgraph.ir.artifact import Artifact, BinaryArtifact
@@ -39,6 +42,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.syntax import File
     from bondgraph.passes.elimination.state_equations import Wanted
     from bondgraph.passes.lowering.lower import LowerOptions
+    from bondgraph.picture import Picture
     from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
     from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
     from bondgraph.runtime.diagnosis.parameter_fit import Fitted
@@ -48,9 +52,10 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
-    from bondgraph.views import Relations
+    from bondgraph.views import Relations, Signatures
 
 T = TypeVar("T")
+Own = TypeVar("Own", bound="Compilation")
 
 #: What a step may be made of, see `Options`: in one form, or observers where they are named.
 Form = Literal["derivative", "observer"] | tuple[str, ...]
@@ -201,6 +206,16 @@ class Compilation:
         """
         return self._again(self.options._replace(form=form))
 
+    def of(self, model: str) -> Compilation:
+        """Another model of the same file, which is not read again.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/khepera.bg", open_ports=True)
+        >>> c.of("Gear").graph.name
+        'Gear'
+        """
+        return self._sharing(Compilation(self.source, model, self.options))
+
     # ------------------------------------------------------------ the stages, in order
 
     @cached_property
@@ -221,7 +236,10 @@ class Compilation:
         from bondgraph.passes.elaboration.elaborate import elaborate
 
         own = self.syntax, self.source, self.model, self._load, self.report
-        found = self._stage(elaborate(*own, self.options.open_ports))
+        graph = elaborate(*own, self.options.open_ports)
+        if graph is None:
+            self._mend_units()
+        found = self._stage(graph)
         given, offsets = dict(self.options.parameters), dict(self.options.offsets)
         try:
             found = found.with_values(given) if given else found
@@ -378,6 +396,28 @@ class Compilation:
                 run.log.columns[item.name] = run.log.columns[item.name] + item.offset
         return run
 
+    def plot(
+        self, runs: Run | Mapping[str, Run], signals: Sequence[str] = (), title: str = ""
+    ) -> Picture:
+        """A picture of a run, or of several by label: a strip for each signal, a line for each run.
+
+        `signals` are columns of the log or of the truth (states, true values), without any all of
+        the log. A notebook shows the picture; `write(path)` makes a .png, .svg, .pdf or .html of
+        it. Raises KeyError for what is no signal, `Trouble` without matplotlib.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> run = c.simulate(bondgraph.Scenario("still", duration=0.1))
+        >>> c.plot({"at rest": run}, ["speed"])
+        <picture of speed: at rest>
+        """
+        from collections.abc import Mapping
+
+        from bondgraph.picture import Picture
+
+        found = runs if isinstance(runs, Mapping) else {"": runs}
+        return Picture(f"{self.graph.name}{title and f': {title}'}", found, tuple(signals))
+
     def with_biases(self, scenario: Scenario) -> Scenario:
         """A scenario whose instruments have the offsets of sensors (`Options`) as biases too."""
         from bondgraph.runtime.simulation.scenario import Instrument
@@ -388,6 +428,23 @@ class Compilation:
                 own = found.get(sensor.name, Instrument())
                 found[sensor.name] = own._replace(bias=own.bias + sensor.offset)
         return scenario._replace(instruments=found)
+
+    def changes(
+        self, folder: str | os.PathLike[str], targets: Sequence[str] | None = None
+    ) -> tuple[Change, ...]:
+        """What `write` would do below `folder`, file by file, without doing it.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> {change.what for change in c.changes("generated/dc_motor")}
+        {'same'}
+        """
+        from bondgraph.backends.write import changes
+
+        if not self.residuals:
+            return ()
+        own = self.artifacts if targets is None else self._emitted(tuple(targets))
+        return changes(own, folder)
 
     @cached_property
     def structure(self) -> StructuralModel:
@@ -416,8 +473,25 @@ class Compilation:
 
         return Relations(*self._shown[1:])
 
+    def derivation(self, name: str) -> Derivations:
+        """How a residual came about, replayed with SymPy (docs/derivations.md); KeyError else.
+
+        Every step is done from the equations of the bond graph, in the order of the compiler.
+
+        >>> import bondgraph
+        >>> d = bondgraph.compile("models/dc_motor.bg").derivation("r1")
+        >>> d.complete, [step.move for step in d[0].steps][-3:]
+        (True, ['solve', 'differentiate', 'close'])
+        """
+        from bondgraph.derivations import Derivations
+        from bondgraph.passes.relation.derive import derive
+
+        shown = self.residuals[name].residual
+        residual = next(r for r in self._analysis[0].residuals if r.name == name)
+        return Derivations(self.graph, derive(residual, self.graph, shown))
+
     @cached_property
-    def signatures(self) -> SignatureMatrix:
+    def signatures(self) -> Signatures:
         """The fault signature matrix: which residual sees which fault.
 
         >>> import bondgraph
@@ -425,7 +499,9 @@ class Compilation:
         >>> matrix.signature("r1"), matrix.to_numpy().shape
         (('L', 'R', 'k', 'U', 'current', 'speed'), (9, 2))
         """
-        return self._shown[2]
+        from bondgraph.views import Signatures
+
+        return Signatures(*self._shown[2])
 
     @cached_property
     def mode_signatures(self) -> ModeSignatures:
@@ -737,19 +813,25 @@ class Compilation:
 
         return conflicts(self.graph)
 
-    def drawing(self, derivative: bool = False, bare: bool = False) -> str:
+    def drawing(
+        self, derivative: bool = False, bare: bool = False, look: Look | None = None
+    ) -> str:
         """The bond graph with its causal strokes, or with what keeps them from being placed.
 
         As SVG, one self-contained text; a `bare` one for inside of a page that has its colours.
+        `look` says what else is shown, see `backends.drawing.scene`.
         """
+        from bondgraph.backends.drawing.scene import Look
+
+        chosen = look or Look()
         if self.conflicts:
             from bondgraph.backends.figure import draw_conflicts
 
-            return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare)
+            return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare, chosen)
         from bondgraph.backends.figure import draw
 
         causal = self.derivative if derivative else self.integral
-        return draw(causal, self.graph.name, bare)
+        return draw(causal, self.graph.name, bare, chosen)
 
     def _repr_html_(self) -> str:
         """The drawing, the relations and the signatures, for a notebook."""
@@ -757,6 +839,11 @@ class Compilation:
         return "\n".join(parts)
 
     # ------------------------------------------------------------------------- helpers
+
+    def _sharing(self, other: Own) -> Own:
+        """Another compilation of the same text, with its tree."""
+        vars(other).update(syntax=self.syntax)
+        return other
 
     def _again(self, options: Options) -> Compilation:
         """With options that leave the relations what they are, and all that is known of these."""
@@ -787,11 +874,12 @@ class Compilation:
     def _tuned(self) -> Tuned:
         """The limits of the tuning, for code."""
         from bondgraph.backends.decision import UNTUNED, Tuned
-        from bondgraph.runtime.diagnosis.cusum import on_board
 
         own = self.options.tuning
         if own is None:
             return UNTUNED
+        from bondgraph.runtime.diagnosis.cusum import on_board  # which NumPy comes with
+
         limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
         words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
         return Tuned(limits, words)
@@ -846,13 +934,27 @@ class Compilation:
             raise CompileError(tuple(self.report.diagnostics))
         return value
 
+    def _mend_units(self) -> None:
+        """Where units disagree, say which change of the text makes them agree."""
+        from bondgraph.frontend.parser import parse
+        from bondgraph.passes.elaboration.elaborate import elaborate
+        from bondgraph.passes.elaboration.unit_mends import CODE, unit_mends
+
+        def holds(text: str) -> bool:
+            report, source = Report(), Source(self.source.path, text)
+            file = parse(source, report)
+            if file is not None and not report.failed:
+                elaborate(file, source, self.model, self._load, report, self.options.open_ports)
+            return not any(d.code == CODE for d in report.diagnostics)
+
+        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, holds)
+
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
         from bondgraph.frontend.parser import has_edition, parse
-        from bondgraph.frontend.read import read
 
         beside = os.path.join(os.path.dirname(origin.source.path), path)
-        source = read(beside, self.report, origin)
+        source = self._read(beside, origin)
         if source is None:
             return None
         if not has_edition(source):  # of a file that is no model, no line is shown
@@ -862,6 +964,12 @@ class Compilation:
                 " \"motor.bg\"`; `bondgraph check` on the file itself says more.")  # fmt: skip
             return None
         return parse(source, self.report)
+
+    def _read(self, path: str, origin: Span) -> Source | None:
+        """The text of an imported file; an editor has one that is not saved yet."""
+        from bondgraph.frontend.read import read
+
+        return read(path, self.report, origin)
 
 
 def compile(

@@ -13,7 +13,10 @@ from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.text.renamed import by_new_name
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from bondgraph.algebra.present import ClosedForm
+    from bondgraph.notation.typeset import Letters
 
 
 class Relation:
@@ -35,8 +38,10 @@ class Relation:
         residual: Residual,
         matrix: SignatureMatrix,
         starts: Mapping[Symbol, Expr],
+        spelled: Callable[[], Letters],
     ) -> None:
         self._graph = graph
+        self._spelled = spelled  # how names are written in LaTeX, the same in all relations
         self._matrix = matrix
         self._starts = starts  # the graph's initial values, found once for all its relations
         self.residual = residual
@@ -65,12 +70,12 @@ class Relation:
 
     @cached_property
     def latex(self) -> str:
-        """The relation in LaTeX; a dotted path becomes a subscript, a derivative its dots."""
+        """The relation in LaTeX: derivatives as dots, of a path what keeps names apart, below."""
         from bondgraph.algebra.present import tidy
         from bondgraph.notation.latex import latex
 
         root = tidy(self._graph.pool, *self._graph.pool.logged([self.residual.expr]))[0]
-        return latex(root, self._starts)
+        return latex(root, self._starts, self._spelled())
 
     @property
     def orders(self) -> dict[str, int]:
@@ -150,6 +155,23 @@ class Relation:
         return f"$\\displaystyle {self.latex}$"
 
 
+class Signatures(SignatureMatrix):
+    """The fault signature matrix of a model, as text, as HTML in a notebook, or in LaTeX."""
+
+    def to_latex(self) -> str:
+        r"""The matrix as a `tabular` of LaTeX, with a line between groups of equal signatures.
+
+        >>> import bondgraph
+        >>> lines = bondgraph.compile("models/dc_motor.bg").signatures.to_latex().splitlines()
+        >>> print(lines[2], lines[4], sep="\n")
+         & $r_{1}$ & $r_{2}$ & $M_b$ & $I_b$ \\
+        $L$ & 1 & $\cdot$ & 1 & $\cdot$ \\
+        """
+        from bondgraph.notation.latex_table import latex_table
+
+        return latex_table(self)
+
+
 class Relations(Sequence[Relation]):
     """All relations of a model in stable order; by position or by name.
 
@@ -163,7 +185,17 @@ class Relations(Sequence[Relation]):
         graph = residuals.system.graph
         starts = graph.initial_values()
         self.residual_set = residuals
-        self._all = tuple(Relation(graph, r, matrix, starts) for r in residuals.residuals)
+        self._all = tuple(
+            Relation(graph, r, matrix, starts, lambda: self._spelled) for r in residuals.residuals
+        )
+
+    @cached_property
+    def _spelled(self) -> Letters:
+        """How the names of the model are written in LaTeX."""
+        from bondgraph.notation.latex import lettered
+
+        graph = self.residual_set.system.graph
+        return lettered(graph.names)
 
     @overload
     def __getitem__(self, key: int | str) -> Relation: ...

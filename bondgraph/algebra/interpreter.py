@@ -76,6 +76,7 @@ class Interpreter:
         self.modes: Mapping[str, bool] = {}
         self._tables = {n: number.table(rows, backwards(n)) for n, rows in program.tables}
         self._roots = {block.name: block for block in program.roots}
+        self._constants: dict[float, Real] = {}
 
     def configure(
         self, params: Mapping[str, Real] | None = None, options: Mapping[str, Real] | None = None
@@ -151,7 +152,12 @@ class Interpreter:
             case Ref():
                 return self.values[node]
             case Const():
-                return self.number.real(node.value)
+                found = self._constants.get(node.value)
+                if found is None:
+                    found = self.number.real(node.value)
+                    if node.value:  # zeros of either sign are equal
+                        self._constants[node.value] = found
+                return found
             case Sum():
                 total: Real = None
                 for positive, term in node.terms:

@@ -16,7 +16,9 @@ from bondgraph.ir.normal import Edge, Leaf, Tape
 def record(pool: Pool, expr: Expr) -> Tape:
     """The tape of a residual; integrals and nonlinear expressions are its leaves."""
     memo: dict[Expr, bool] = {}
-    varying = {n for n in topological([expr]) if not constant(n, memo)}
+    constant(expr, memo)
+    varying = {n for n, known in memo.items() if not known}
+    scales: dict[object, Expr] = {}
     moving = holding([expr], lambda n: n.op is Op.DER)
     degree: dict[Expr, int] = {expr: 0}
     rows: dict[Expr, int] = {}
@@ -26,7 +28,7 @@ def record(pool: Pool, expr: Expr) -> Tape:
     for node in reversed(topological([expr], stop=lambda n: n not in varying)):
         if node not in degree:
             continue  # only reached through an atom
-        below = _factors(pool, node, varying)
+        below = _factors(pool, node, varying, scales)
         rows[node] = len(rows)
         edges += [Edge(rows[node], rows[s], k, c) for s, k, c in incoming.pop(node, ())]
         if below is None:
@@ -48,10 +50,17 @@ def record(pool: Pool, expr: Expr) -> Tape:
 
 
 def _factors(
-    pool: Pool, node: Expr, varying: Container[Expr]
+    pool: Pool, node: Expr, varying: Container[Expr], scales: dict[object, Expr]
 ) -> list[tuple[Expr, int, Expr]] | None:
     """What a node is linear in: (argument, power of p, factor); None for an atom."""
     if node.op is Op.DER:
         return [(node.args[0], 1, pool.one)]
     terms = linear_terms(node, varying)
-    return None if terms is None else [(t.arg, 0, t.factor(pool)) for t in terms]
+    if terms is None:
+        return None
+    out = []
+    for term in terms:
+        key = term.coefficient, term.others  # most are met again and again
+        scale = scales.get(key) or scales.setdefault(key, term.factor(pool))
+        out.append((term.arg, 0, scale))
+    return out

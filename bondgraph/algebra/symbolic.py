@@ -42,6 +42,8 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "acosh": sp.acosh,
     "atanh": sp.atanh,
 }
+#: Functions that SymPy writes by several of its own, which it cannot turn around.
+WRITTEN_OUT = ("abs", "sign", "ssqrt", "ssq", "cbrt", "min", "max")
 _NAMES = {f: name for name, f in _FUNCTIONS.items() if isinstance(f, type)}
 _COMPARE: dict[str, Callable[..., Any]] = {"<": sp.Lt, "<=": sp.Le, "==": sp.Eq}
 _LOGIC: dict[str, Callable[..., Any]] = {"and": sp.And, "or": sp.Or, "not": sp.Not}
@@ -111,13 +113,35 @@ def _truth(value: Any) -> Any:
     return value if isinstance(value, Boolean) else sp.Eq(value, 1)
 
 
-def from_sympy(pool: Pool, value: Any, names: Mapping[Any, Expr]) -> Expr | None:
-    """A SymPy expression in the given symbols as one of ours; None if it cannot be written so."""
+def applied(name: str, *args: Any) -> Any:
+    """A function of the language of SymPy arguments."""
+    return _FUNCTIONS[name](*args)
+
+
+def called(value: Any) -> str | None:
+    """The name in the language of the function that a SymPy value is of, if it has one."""
+    if value.is_Pow and value.base == sp.E:
+        return "exp"
+    return _NAMES.get(value.func)
+
+
+def from_sympy(
+    pool: Pool,
+    value: Any,
+    names: Mapping[Any, Expr],
+    other: Callable[[Any], Expr | None] = lambda _: None,
+) -> Expr | None:
+    """A SymPy expression in the given symbols as one of ours; None if it cannot be written so.
+
+    `other` may say what is neither arithmetic nor a function of one argument.
+    """
     if value in names:
         return names[value]
     if value.is_Rational:
         return pool.num(Fraction(int(value.p), int(value.q)))
-    args = [from_sympy(pool, a, names) for a in value.args]
+    if (found := other(value)) is not None:
+        return found
+    args = [from_sympy(pool, a, names, other) for a in value.args]
     known = [a for a in args if a is not None]
     if len(known) != len(args):
         return None
@@ -127,6 +151,8 @@ def from_sympy(pool: Pool, value: Any, names: Mapping[Any, Expr]) -> Expr | None
         return pool.mul(*known)
     if value.is_Pow and value.exp.is_Integer:
         return pool.power(known[0], int(value.exp))
+    if value.is_Pow and value.exp.is_Rational and value.exp.q == 2:
+        return pool.power(pool.fn("sqrt", known[0]), int(value.exp.p))
     if value.is_Pow and value.exp.is_Rational:
         return pool.fn("pow", known[0], known[1])
     if value.is_Pow and value.base == sp.E:

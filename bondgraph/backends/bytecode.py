@@ -18,7 +18,8 @@ class _Kept(jinja2.BytecodeCache):
         self.form = f"{jinja2.__version__} {options}"
 
     def _name(self, bucket: Bucket) -> str:
-        return sha256(f"{self.form} {bucket.key}".encode()).hexdigest()[:32]
+        # by its text, not its path: another installation has the same template elsewhere
+        return sha256(f"{self.form} {bucket.checksum}".encode()).hexdigest()[:32]
 
     def load_bytecode(self, bucket: Bucket) -> None:
         """The code of a template, if what is kept is of its present text."""

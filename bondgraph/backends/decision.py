@@ -8,7 +8,7 @@ from math import ceil
 from bondgraph.backends import listing
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.target import Target
-from bondgraph.ir.program import Program, ResidualInfo
+from bondgraph.ir.program import Program
 from bondgraph.ir.residual_limit import NEVER, OVERSHOOT, ROW, SHARE, ResidualLimit
 from bondgraph.notation.dialect import digits
 from bondgraph.text.tuples import NamedTuple
@@ -48,16 +48,24 @@ def fault_classes(program: Program) -> tuple[FaultClass, ...]:
     residuals = program.residuals
     switched = any(k.kind == "mode" for k in program.knowns)
 
-    def shows(info: ResidualInfo, fault: str) -> bool:
-        sure = not (switched or info.unavailable or fault in info.invisible)
-        return sure and fault in info.faults
-
-    rows: dict[tuple[tuple[bool, ...], ...], list[str]] = {}
+    entries: dict[str, list[tuple[int, bool]]] = {}  # by fault the residuals, and which show it
+    for at, info in enumerate(residuals):
+        for fault in () if info.unavailable else info.faults:
+            sure = not (switched or fault in info.invisible)
+            entries.setdefault(fault, []).append((at, sure))
+    rows: dict[tuple[tuple[int, bool], ...], list[str]] = {}
     for fault in dict.fromkeys(f for r in residuals for f in r.faults):
-        sees = tuple(fault in r.faults and not r.unavailable for r in residuals)
-        if any(sees):
-            rows.setdefault((sees, tuple(shows(r, fault) for r in residuals)), []).append(fault)
-    return tuple(FaultClass(tuple(faults), *row) for row, faults in rows.items())
+        if fault in entries:
+            rows.setdefault(tuple(entries[fault]), []).append(fault)
+    size = range(len(residuals))
+    return tuple(
+        FaultClass(
+            tuple(faults),
+            tuple(map({at for at, _ in row}.__contains__, size)),
+            tuple(map({at for at, sure in row if sure}.__contains__, size)),
+        )
+        for row, faults in rows.items()
+    )
 
 
 def samples_a_row(program: Program) -> int:

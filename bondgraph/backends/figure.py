@@ -6,6 +6,7 @@ One that admits no causality is drawn too: what contradicts itself stands out.
 from __future__ import annotations
 
 from bondgraph.backends.drawing.arrange import framed
+from bondgraph.backends.drawing.arrows import Arrow, with_arrows
 from bondgraph.backends.drawing.canvas import Point
 from bondgraph.backends.drawing.paint import (
     arrow,
@@ -23,7 +24,8 @@ from bondgraph.backends.drawing.paint import (
     spoken,
 )
 from bondgraph.backends.drawing.place import Wire
-from bondgraph.backends.drawing.scene import Path, Scene, scene
+from bondgraph.backends.drawing.scene import PLAIN, Look, Path, Scene, scene
+from bondgraph.backends.drawing.signals import signals
 from bondgraph.backends.drawing.style import FONT, HEIGHT, SEPARATOR, SMALL, legend, width
 from bondgraph.ir.causal import CausalGraph, Conflict, Reason, Stroke
 from bondgraph.ir.graph import BondGraph
@@ -41,31 +43,31 @@ _SIGNS = SEPARATOR.join(
 )
 
 
-def draw(causal: CausalGraph, title: str, bare: bool = False) -> str:
+def draw(causal: CausalGraph, title: str, bare: bool = False, look: Look = PLAIN) -> str:
     """The SVG of a bond graph with its causality, as one self-contained text.
 
     Junctions and two-ports run from left to right along the power, one-ports stand around them,
-    submodels have frames; the reason of every stroke is its tooltip. The same graph gives the
-    same bytes. `bare`: for inside of a page that has a title and the colours (`style.inside`).
-    A graph of more than 20000 nodes gives a picture that says so.
+    submodels have frames; signals that act on laws are thin arrows; the reason of every stroke is
+    its tooltip. The same graph gives the same bytes. `bare`: for inside of a page that has a title
+    and the colours (`style.inside`). A graph of more than 20000 nodes gives a picture that says so.
     """
     nodes = causal.graph.nodes
     sensors = any(_reads(causal, n) for n in range(len(nodes)))
-    signs = legend(causal.preference, bool(causal.dependent), sensors)
+    acting = signals(causal.graph)
+    signs = legend(causal.preference, bool(causal.dependent), sensors, bool(acting))
     if len(nodes) > TOO_MANY:
-        return page(title, [excuse(len(nodes))], (560, 40), [], signs, bare)
-    view, figure = framed(lambda unframed: scene(causal, unframed))
+        return page(title, [excuse(len(nodes))], (560, 40), [], signs, bare, look)
+    view, plain = framed(lambda unframed: scene(causal, unframed, look))
+    figure, arrows = with_arrows(view, plain, acting)
     body = [
         *frames(view, figure),
         *[_wire(causal, wire) for wire in figure.wires],
+        *[_arrow(causal.graph, a) for a in arrows],
         *[node_label(nodes[n], view.items[n], at) for n, at in sorted(figure.centre.items())],
         *[small(x, y, view.items[n].tag) for n, (x, y) in sorted(figure.tags.items())],
-        *[
-            small(x, y, view.graph.bonds[b].label or "")
-            for b, (x, y) in sorted(figure.labels.items())
-        ],
+        *[small(x, y, view.bond_names[b]) for b, (x, y) in sorted(figure.labels.items())],
     ]
-    return page(title, body, figure.size, [], signs, bare)
+    return page(title, body, figure.size, [], signs, bare, look)
 
 
 def excuse(nodes: int) -> str:
@@ -83,6 +85,7 @@ def _wire(causal: CausalGraph, wire: Wire) -> str:
     stroke = causal.strokes[wire.bond]
     line = " ".join(f"{px(x)},{px(y)}" for x, y in wire.points)
     hint = f"<title>{escape(_told(causal.graph, wire.bond, stroke))}</title>"
+    of = f'data-bond="{wire.bond}"'
     hit = f'<polyline class="hit" points="{line}"/>'
     sensor = next(
         (n for n in (bond.tail.node, bond.head.node) if _reads(causal, n)),
@@ -92,18 +95,41 @@ def _wire(causal: CausalGraph, wire: Wire) -> str:
         points = wire.points if sensor == bond.head.node else wire.points[::-1]
         tip = arrow(points[-2], points[-1])
         return (
-            f'<g>{hint}{hit}<polyline class="bond line-detector" points="{line}"/>'
+            f'<g {of}>{hint}{hit}<polyline class="bond line-detector" points="{line}"/>'
             f'<polygon class="detector" points="{tip}"/></g>'
         )
     way = rounded(wire.points) + barb(wire.points[-2], wire.points[-1])
     if stroke.reason.cause == "ring":
         dashed = f'<path class="bond line-faint" stroke-dasharray="4 3" d="{way}"/>'
-        return f"<g>{hint}{hit}{dashed}</g>"
+        return f"<g {of}>{hint}{hit}{dashed}</g>"
     ends = wire.points if stroke.at == "head" else wire.points[::-1]
     return (
-        f'<g>{hint}{hit}<path class="bond line-ink" d="{way}"/>'
+        f'<g {of}>{hint}{hit}<path class="bond line-ink" d="{way}"/>'
         f'<path class="stroke line-ink" d="{bar(ends[-2], ends[-1])}"/></g>'
     )
+
+
+def _arrow(graph: BondGraph, drawn: Arrow) -> str:
+    """A signal: thin ways to its name or block, and an arrow from there to its element."""
+    signal = drawn.signal
+    told = f"{', '.join(signal.names)} acts on the law of {spoken(graph.nodes[signal.node])}"
+    parts = [f"<title>{escape(told)}</title>"]
+    for way in (*drawn.ways, drawn.tip):
+        line = " ".join(f"{px(x)},{px(y)}" for x, y in way)
+        parts.append(f'<polyline class="signal line-detector" points="{line}"/>')
+        parts.append(f'<polygon class="detector" points="{arrow(way[-2], way[-1])}"/>')
+    if drawn.box is not None:
+        box = drawn.box
+        x, y = (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2
+        if signal.block:
+            parts.append(
+                f'<rect class="block paper line-detector" x="{px(box.x0)}" y="{px(box.y0)}" '
+                f'width="{px(box.x1 - box.x0)}" height="{px(box.y1 - box.y0)}" rx="2"/>'
+            )
+        parts.append(
+            f'<text class="told ink" x="{px(x)}" y="{px(y + 3.8)}">{escape(signal.label)}</text>'
+        )
+    return f"<g>{''.join(parts)}</g>"
 
 
 def _reads(causal: CausalGraph, node: int) -> bool:
@@ -151,7 +177,11 @@ def _why(graph: BondGraph, reason: Reason) -> str:
 
 
 def draw_conflicts(
-    graph: BondGraph, conflicts: tuple[Conflict, ...], title: str, bare: bool = False
+    graph: BondGraph,
+    conflicts: tuple[Conflict, ...],
+    title: str,
+    bare: bool = False,
+    look: Look = PLAIN,
 ) -> str:
     """The SVG of a bond graph in which the strokes cannot be placed.
 
@@ -164,7 +194,7 @@ def draw_conflicts(
         for number, conflict in enumerate(conflicts, 1)
     ]
     if len(graph.nodes) > TOO_MANY:
-        return page(title, [excuse(len(graph.nodes))], (560, 40), notes, _SIGNS, bare)
+        return page(title, [excuse(len(graph.nodes))], (560, 40), notes, _SIGNS, bare, look)
     sheet = _Sheet(graph, conflicts)
     view, figure = framed(sheet.scene)
     body = [
@@ -174,7 +204,7 @@ def draw_conflicts(
         *[small(*at, view.items[n].tag) for n, at in sorted(figure.tags.items())],
         *[small(x, y, graph.bonds[b].label or "") for b, (x, y) in sorted(figure.labels.items())],
     ]
-    return page(title, body, figure.size, notes, _SIGNS, bare)
+    return page(title, body, figure.size, notes, _SIGNS, bare, look)
 
 
 class _Sheet:
@@ -245,4 +275,4 @@ class _Sheet:
         for at in self.strokes.get(wire.bond, ()) if inside else ():
             ends = wire.points if at == "head" else wire.points[::-1]
             drawn.append(f'<path class="thick line-clash" d="{bar(ends[-2], ends[-1])}"/>')
-        return f"<g>{''.join(drawn)}</g>"
+        return f'<g data-bond="{wire.bond}">{"".join(drawn)}</g>'

@@ -131,18 +131,15 @@ def _rows_in_double(tape: PolynomialTape, scales: list[Value]) -> list[list[Valu
     """The same for millions of terms: rounded as in the generated code, operation by operation."""
     import numpy as np
 
-    numbers = np.zeros((tape.rows, tape.length))
-    sizes = np.zeros((tape.rows, tape.length))
-    numbers[0, 0] = sizes[0, 0] = 1.0
-    factors = [(float(s), s.size) for s in scales]
-    for op in tape.ops:
-        factor, size = factors[op.scale]
-        to = slice(op.shift, op.shift + op.length)
-        if op.fresh:
-            numbers[op.target] = sizes[op.target] = 0.0
-        numbers[op.target, to] += factor * numbers[op.source, : op.length]
-        sizes[op.target, to] += size * sizes[op.source, : op.length]
-    return [
-        [Value(Decimal(n), s) for n, s in zip(row.tolist(), wide.tolist(), strict=True)]
-        for row, wide in zip(numbers, sizes, strict=True)
-    ]
+    table = np.zeros((tape.rows, 2, tape.length))  # numbers, and beside them their sizes
+    table[0, :, 0] = 1.0
+    rows = list(table)
+    factors = [np.array([[float(s)], [s.size]]) for s in scales]
+    for target, source, shift, scale, length, fresh in tape.ops:
+        if fresh:
+            rows[target].fill(0.0)
+        rows[target][:, shift : shift + length] += factors[scale] * rows[source][:, :length]
+    found: list[list[Value]] = [[] for _ in range(tape.rows)]
+    for row in {out.row for out in tape.outputs}:
+        found[row] = [Value(Decimal(n), size) for n, size in zip(*rows[row].tolist(), strict=True)]
+    return found

@@ -23,6 +23,7 @@ from bondgraph.ir.artifact import Artifact, BinaryArtifact
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
 from bondgraph.text.printable import printable
+from bondgraph.text.tuples import NamedTuple
 from bondgraph.text.whole_file import (
     folder_aside,
     naming,
@@ -68,10 +69,7 @@ def write(
     in the way, `Trouble` where another process writes there or the disk refuses while files are
     moved, OSError if it refuses before, ValueError for a path that leads out of the folder.
     """
-    files = {
-        a.path: a.data if isinstance(a, BinaryArtifact) else printable(a.text).encode()
-        for a in artifacts
-    }
+    files = _contents(artifacts)
     for path in files:
         if not _is_below(path):
             raise ValueError(f"{path} is not a path below the output folder")
@@ -88,6 +86,54 @@ def write(
         if is_new and not any(home.iterdir()):
             home.rmdir()
     return tuple(str(home / path) for path in files)
+
+
+class Change(NamedTuple):
+    """What `write` would do to a file: new, changed, same, removed, or foreign: it would refuse."""
+
+    path: str
+    what: Literal["new", "changed", "same", "removed", "foreign"]
+
+
+def changes(
+    artifacts: Iterable[Artifact | BinaryArtifact], folder: str | os.PathLike[str]
+) -> tuple[Change, ...]:
+    """What `write` would do below a folder, file by file, in order; nothing is touched.
+
+    Raises OSError for a folder that cannot be read.
+    """
+    home = Path(folder)
+    known, files = _manifest(home), _contents(artifacts)
+    found = []
+    for path, data in files.items():
+        own = _hash(data)
+        if _is_foreign(home, path, known.get(path, set()) | {own}):
+            found.append(Change(path, "foreign"))
+        elif _at(home, path) == "nothing":
+            found.append(Change(path, "new"))
+        else:
+            found.append(Change(path, "same" if _stands(home, path, {own}) else "changed"))
+    old = [p for p in known if p not in files and _stands(home, p, known[p])]
+    return (*found, *[Change(path, "removed") for path in old])
+
+
+def outdated(
+    artifacts: Iterable[Artifact | BinaryArtifact], folder: str | os.PathLike[str]
+) -> tuple[str, ...]:
+    """The paths below `folder` that are not what `write` would leave there; nothing is written.
+
+    These are files that are missing or other ones, and files of an earlier run that are not among
+    the artifacts.
+    """
+    return tuple(str(Path(folder) / c.path) for c in changes(artifacts, folder) if c.what != "same")
+
+
+def _contents(artifacts: Iterable[Artifact | BinaryArtifact]) -> dict[str, bytes]:
+    """The bytes of each file, by its path."""
+    return {
+        a.path: a.data if isinstance(a, BinaryArtifact) else printable(a.text).encode()
+        for a in artifacts
+    }
 
 
 def _refuse_foreign(home: Path, files: Mapping[str, bytes], known: Mapping[str, set[str]]) -> None:

@@ -5,12 +5,22 @@ from __future__ import annotations
 import os
 import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections import Counter
 
 from bondgraph import Compilation, Options
 from bondgraph.cli import console
 from bondgraph.cli.log_options import note
-from bondgraph.cli.options import bits, frequency, further, opened, read_tuning, realised
+from bondgraph.cli.options import (
+    bandwidth,
+    bits,
+    further,
+    opened,
+    read_tuning,
+    realised,
+    sample_rate,
+)
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.numerals import plural
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -20,18 +30,23 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="where to write (default: generated/<name of file>)"
     )
+    parser.add_argument(
+        "--dry-run",
+        action="store_true",
+        help="look without writing: which files would be new, changed, or removed",
+    )
     defaults = Options()
     parser.add_argument(
         "--rate",
         metavar="HZ",
-        type=frequency,
+        type=sample_rate,
         default=None,
         help=f"samples a second that step is made for (default: {defaults.rate:g})",
     )
     parser.add_argument(
         "--bandwidth",
         metavar="RAD/S",
-        type=frequency,
+        type=bandwidth,
         default=None,
         help="bandwidth of the residual filter (default: chosen from the rate)",
     )
@@ -67,6 +82,12 @@ def arguments(parser: ArgumentParser) -> None:
         action="store_true",
         help="call tanh of the mathematical library, not one that is 1e-8 near it",
     )
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="write nothing; exit with 1 if the files that are there are not what would be written",
+    )
+    parser.add_argument("--quiet", action="store_true", help="print findings, but no result")
     further(parser)
     realised(parser)
 
@@ -98,6 +119,10 @@ def run(args: Namespace) -> int:
     if compilation.options.offsets:
         names = ", ".join(dict(compilation.options.offsets))
         note(f"the code takes samples without the offsets of {names}: take them off before")
+    if args.dry_run:
+        return _look(compilation, args)
+    if args.check:
+        return _check(compilation, args)
     files = _write(compilation, args.output)
     if args.json:
         from bondgraph.cli.result import result
@@ -107,8 +132,34 @@ def run(args: Namespace) -> int:
     from bondgraph.cli.summary import report
 
     console.show(compilation.report.diagnostics)
-    print("\n".join(report(compilation, files)))
+    if not args.quiet:
+        print("\n".join(report(compilation, files)))
     return 0
+
+
+_LISTED = 8  # files that are named
+
+
+def _check(compilation: Compilation, args: Namespace) -> int:
+    """Say which files are not what would be written; the exit status is 1 if there are any."""
+    from bondgraph.backends.write import outdated
+
+    folder = args.output or _default(compilation.source.path)
+    artifacts = compilation.artifacts if compilation.residuals else ()
+    old = outdated(artifacts, folder)
+    if args.json:
+        state = {"status": "error" if old else "ok", "outdated": list(old)}
+        console.print_json({**state, "message": _currency(folder, old)})
+    elif old or not args.quiet:
+        print(_currency(folder, old), file=sys.stderr if old else sys.stdout)
+    return 1 if old else 0
+
+
+def _currency(folder: str, old: tuple[str, ...]) -> str:
+    if not old:
+        return f"{folder} is current"
+    more = f" and {len(old) - _LISTED} more" if len(old) > _LISTED else ""
+    return f"{folder} is not current: {', '.join(old[:_LISTED])}{more}; compile the model again"
 
 
 def _opened(args: Namespace) -> Compilation:
@@ -160,6 +211,35 @@ def _write(compilation: Compilation, output: str | None) -> list[str]:
     if not compilation.residuals:
         return []
     return list(compilation.write(output or _default(compilation.source.path)))
+
+
+def _look(compilation: Compilation, args: Namespace) -> int:
+    """Say what would be written; the status is 1 where a file is in the way."""
+    folder = args.output or _default(compilation.source.path)
+    found = compilation.changes(folder)
+    if args.json:
+        from bondgraph.cli.result import result
+
+        listed = [{"path": os.path.join(folder, c.path), "change": c.what} for c in found]
+        console.print_json({**result(compilation, []), "changes": listed})
+    else:
+        console.show(compilation.report.diagnostics)
+        print(f"{compilation.graph.name}: nothing is written")
+        many: Counter[str] = Counter(change.what for change in found)
+        for what, word in _CHANGES.items():
+            if many[what] and what == "same":
+                print(f"  {word:10} {plural(many[what], 'file')} in {folder}")
+            else:
+                for change in found:
+                    if change.what == what:
+                        print(f"  {word:10} {os.path.join(folder, change.path)}")
+    return 1 if any(change.what == "foreign" for change in found) else 0
+
+
+_CHANGES = {
+    "new": "new", "changed": "changed", "removed": "removed", "same": "the same",
+    "foreign": "in the way",
+}  # fmt: skip
 
 
 def _default(model: str) -> str:

@@ -144,15 +144,18 @@ def columns(rows: list[tuple[str, ...]]) -> list[str]:
     ]
 
 
-def deliver(output: str, text: str, what: str) -> None:
-    """Write a text to a file and say what it is, or print it alone where the file is `-`."""
-    if output == "-":
-        sys.stdout.write(text)
+def deliver(output: str, made: str | bytes, what: str) -> None:
+    """Write a text or bytes to a file and say what it is; a text for `-` is printed alone."""
+    if output == "-" and isinstance(made, str):
+        sys.stdout.write(made)
         return
-    from bondgraph.text.whole_file import write_whole
+    from bondgraph.text.whole_file import write_bytes, write_whole
 
     os.makedirs(os.path.dirname(output) or ".", exist_ok=True)
-    write_whole(output, text)
+    if isinstance(made, str):
+        write_whole(output, made)
+    else:
+        write_bytes(output, made)
     print(f"{output}: {what}")
 
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from bondgraph.cli import console
-from bondgraph.cli.options import isolating, opened, realised, sampling, signals
+from bondgraph.cli.options import check_units, isolating, opened, realised, sampling, signals
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
 from bondgraph.text.diagnostic import Trouble
@@ -69,6 +69,7 @@ def run(args: Namespace) -> int:
     from bondgraph.runtime.separation import separation
 
     compilation = opened(args)
+    check_units(compilation.graph, (*args.at, *args.swing, *args.noise))
     situation = situation_of(args, compilation.program)
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     forms = {_form(args.form): compilation}

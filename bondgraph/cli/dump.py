@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from argparse import ArgumentParser, Namespace
 
 from bondgraph import Compilation, compile
@@ -30,11 +31,18 @@ def arguments(parser: ArgumentParser) -> None:
         metavar="STAGE",
         help=f"{', '.join(STAGES)}; causal is integral and derivative",
     )
+    parser.add_argument(
+        "--latex", action="store_true", help="of the signatures: the matrix as a table of LaTeX"
+    )
 
 
 def run(args: Namespace) -> int:
     """Print one stage."""
-    print(text_of(compile(args.model), args.stage))
+    compilation = compile(args.model)
+    if args.latex and args.stage != "signatures":
+        print("--latex is for --stage signatures", file=sys.stderr)
+        return 2
+    print(compilation.signatures.to_latex() if args.latex else text_of(compilation, args.stage))
     return 0
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+import textwrap
 from typing import TYPE_CHECKING
 
 from bondgraph import Compilation, compile
@@ -31,7 +32,9 @@ _SETS = 4  # sets of faults any two of which could look like a fault: more nobod
 
 def arguments(parser: ArgumentParser) -> None:
     """The arguments of `explain`."""
-    parser.usage = "bondgraph explain [-h] [--latex] [--isolate] (CODE | MODEL NAME)"
+    parser.usage = (
+        "bondgraph explain [-h] [--latex] [--isolate] [--derive [-o FILE]] (CODE | MODEL NAME)"
+    )
     parser.add_argument(
         "subject", metavar="CODE or MODEL", help="the code of a diagnostic, or a model"
     )
@@ -41,14 +44,27 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--latex", action="store_true", help="of a residual: its closed form in LaTeX"
     )
+    parser.add_argument(
+        "--derive", action="store_true",
+        help="of a residual: how it follows from the equations, each step done by SymPy",
+    )  # fmt: skip
+    parser.add_argument(
+        "-o", "--out", metavar="FILE",
+        help="with --derive: into a notebook (.ipynb), a script (.py), .md, .tex or .txt",
+    )  # fmt: skip
     isolating(parser)
 
 
 def run(args: Namespace) -> int:
     """Print the explanation; the exit status is 2 where there is nothing of that name."""
+    if args.out is not None and not (args.derive and args.name):
+        print("-o is for a derivation: explain MODEL RESIDUAL --derive -o FILE", file=sys.stderr)
+        return 2
     if args.name is None:
         return _code(args.subject)
     compilation = compile(args.subject, isolate=args.isolate)
+    if args.derive:
+        return _derive(compilation, args.name, args.latex, args.out)
     if args.latex:
         return _latex(compilation, args.name)
     lines = about(compilation, args.name)
@@ -85,6 +101,38 @@ def _latex(compilation: Compilation, name: str) -> int:
             print(relation.latex)
             return 0
     raise console.Unknown(name, "no residual", compilation.signatures.residuals)
+
+
+def _derive(compilation: Compilation, name: str, latex: bool, out: str | None) -> int:
+    """Print or write the derivation of a residual."""
+    try:
+        found = compilation.derivation(name)
+    except KeyError:
+        names = compilation.signatures.residuals
+        raise console.Unknown(name, "no residual", names) from None
+    if out is not None:
+        found.write(out)
+        print(f"written to {out}")
+        if not found.complete:
+            print(f"note: {found.ending}", file=sys.stderr)
+        return 0
+    print(found.latex if latex else "\n".join(_folded(found.text)))
+    return 0
+
+
+def _folded(text: str) -> list[str]:
+    """The lines of a derivation, as wide as the terminal."""
+    columns = width()
+    lines: list[str] = []
+    for line in text.splitlines():
+        left, equals, value = line.partition(" = ")
+        if len(line) <= columns:
+            lines.append(line)
+        elif equals and line.startswith("      "):
+            lines += formula(value, columns, f"{left} = ", " " * 13)
+        else:
+            lines += textwrap.wrap(line, columns, subsequent_indent="    ")
+    return lines
 
 
 def about(compilation: Compilation, name: str) -> list[str]:

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph.cli import console
 from bondgraph.cli.log_options import logged, read_logs, times_of
-from bondgraph.cli.options import frequency, isolating, noise, realised, realising
+from bondgraph.cli.options import (
+    bandwidth,
+    check_units,
+    isolating,
+    noise,
+    realised,
+    realising,
+    sample_rate,
+)
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import joined, plural
 from bondgraph.text.whole_file import write_whole
@@ -41,9 +49,9 @@ def arguments(parser: ArgumentParser) -> None:
     add("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append", default=[],
         help="standard deviation of the samples of a signal, without a name of every sensor; may be"
         " repeated (default: as the logs show it; inputs are exact)")  # fmt: skip
-    add("--rate", metavar="HZ", type=frequency, default=None,
+    add("--rate", metavar="HZ", type=sample_rate, default=None,
         help="samples a second (default: that of the first log)")  # fmt: skip
-    add("--bandwidth", metavar="RAD/S", type=frequency, default=None,
+    add("--bandwidth", metavar="RAD/S", type=bandwidth, default=None,
         help="bandwidth of the filter (default: by rate and length of the logs)")  # fmt: skip
     logged(add)
     isolating(parser)
@@ -103,6 +111,7 @@ def _noise(args: Namespace, compilation: Compilation) -> dict[str, float]:
     signals = [k.path for k in compilation.program.knowns if k.kind != "mode"]
     sensors = [k.path for k in compilation.program.knowns if k.kind == "sensor"]
     found: dict[str, float] = {}
+    check_units(compilation.graph, args.noise)
     for name, deviation in args.noise:
         if name and name not in signals:
             raise console.Unknown(name, "no signal that the residuals read", signals)

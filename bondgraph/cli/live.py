@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING, Any
 from bondgraph import Options
 from bondgraph.cli import monitor
 from bondgraph.cli.log_options import note, operating_of
-from bondgraph.cli.options import isolating, positive, read_tuning, realised, realising
+from bondgraph.cli.options import (
+    isolating,
+    positive,
+    read_tuning,
+    realised,
+    realising,
+    serving,
+)
 from bondgraph.ir.expr import symbols
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
@@ -33,11 +40,7 @@ def arguments(parser: ArgumentParser) -> None:
     add("model", metavar="MODEL", help="file.bg or file.bg:Name")
     add("scenario", metavar="SCENARIO", nargs="?",
         help="a .toml file: what happens, and the plane (docs/simulation.md)")  # fmt: skip
-    add("--port", metavar="N", type=int, default=_PORT,
-        help=f"where the page is served; 0 for any that is free (default: {_PORT})")  # fmt: skip
-    add("--host", metavar="NAME", default="127.0.0.1",
-        help="address to serve at (default: 127.0.0.1, this computer only)")  # fmt: skip
-    add("--no-browser", action="store_true", help="do not open the page")
+    serving(parser, _PORT)
     add("--speed", metavar="X", type=positive, default=1.0,
         help="so many seconds in one, of a simulation or a file (default: 1)")  # fmt: skip
     add("--log", metavar="LOG",
@@ -87,10 +90,10 @@ def _wrong(args: Namespace) -> str:
 
 def _serve(args: Namespace, made: Any) -> int:
     import asyncio
-    import socket
 
     from bondgraph.backends.live_page import live
-    from bondgraph.runtime.live.server import serve, token_for
+    from bondgraph.runtime.live.audience import Audience
+    from bondgraph.runtime.live.server import address_of, serve, token_for
     from bondgraph.runtime.live.session import Session
     from bondgraph.runtime.simulation.scenario import Scenario
 
@@ -123,11 +126,7 @@ def _serve(args: Namespace, made: Any) -> int:
     hello: dict[str, Any] = {"type": "hello"}
     files = live(machine.name, machine.doc, compilation.drawing(bare=True))
     token = token_for(made)
-    host, port = made.getsockname()[:2]
-    if host in ("0.0.0.0", "::"):
-        host = socket.gethostname()
-    name = f"[{host}]" if ":" in host else host
-    address = f"http://{name}:{port}/{token + '/' if token else ''}"
+    address = address_of(made, token)
 
     def ready() -> None:
         print(f"{machine.name}: {setup.what}; look at {address}, stop with ^C", flush=True)
@@ -136,7 +135,7 @@ def _serve(args: Namespace, made: Any) -> int:
 
             webbrowser.open(address)
 
-    asyncio.run(serve(made, files, hello, start, ready, token))
+    asyncio.run(serve(made, files, lambda: Audience(hello, start), ready, token))
     print("stopped")
     return 0
 

@@ -35,7 +35,10 @@ def plain_check(words: list[str]) -> SimpleNamespace | None:
         return None
     from types import SimpleNamespace
 
-    return SimpleNamespace(command="check", models=models, json="--json" in words)
+    return SimpleNamespace(
+        command="check", models=models, json="--json" in words, format="text", strict=False,
+        quiet=False,
+    )  # fmt: skip
 
 
 def parsed(words: list[str]) -> SimpleNamespace | Namespace:
@@ -43,9 +46,14 @@ def parsed(words: list[str]) -> SimpleNamespace | Namespace:
     plain = plain_check(words)
     if plain is not None:
         return plain
-    from bondgraph.cli.usage import parser_for
+    from bondgraph.cli.usage import COMMANDS, parser_for
 
     named = next((w for w in words if not w.startswith("-")), "")
+    if named and named not in COMMANDS:
+        from bondgraph.cli.console import hint
+
+        print(f"error: there is no command `{named}`{hint(named, COMMANDS)}", file=sys.stderr)
+        sys.exit(2)
     return parser_for(named).parse_args(words)
 
 

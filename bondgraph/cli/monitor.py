@@ -11,13 +11,14 @@ from bondgraph import Options
 from bondgraph.cli import console, fleet
 from bondgraph.cli.log_options import form_of, logged, note
 from bondgraph.cli.options import (
+    bandwidth,
     count,
-    frequency,
     isolating,
-    positive,
     read_tuning,
     realised,
     realising,
+    sample_rate,
+    seconds,
 )
 from bondgraph.text.numerals import plural
 
@@ -58,11 +59,11 @@ def arguments(parser: ArgumentParser) -> None:
     add("--states", metavar="FILE",
         help="a row for each sample: residuals, thresholds, states, class (.csv or"
         " .parquet)")  # fmt: skip
-    add("--heartbeat", metavar="S", type=positive,
+    add("--heartbeat", metavar="S", type=seconds,
         help="tell the state of each residual every S seconds")  # fmt: skip
     add("--metrics", metavar="[HOST:]PORT", type=listening,
         help="serve metrics for Prometheus (default HOST: 127.0.0.1)")  # fmt: skip
-    add("--silence", metavar="S", type=positive,
+    add("--silence", metavar="S", type=seconds,
         help="a live source without a sample for S seconds is told (default: 2)")  # fmt: skip
     add("--fail-on-fault", action="store_true", help="exit status 3 if there was an alarm")
     add("-o", "--output", metavar="FILE", help="of a fleet: write a row for each verdict (.csv or"
@@ -91,9 +92,9 @@ def sampled(add: Callable[..., object]) -> None:
         help="its speed (default: 115200)")  # fmt: skip
     add("--mqtt", metavar="HOST[:PORT]/TOPIC", help="samples from a topic of an MQTT broker")
     logged(add)
-    add("--rate", metavar="HZ", type=frequency,
+    add("--rate", metavar="HZ", type=sample_rate,
         help=f"samples a second (default: of a file its own, else {Options().rate:g})")  # fmt: skip
-    add("--bandwidth", metavar="RAD/S", type=frequency,
+    add("--bandwidth", metavar="RAD/S", type=bandwidth,
         help="bandwidth of the filter (default: by rate and length of the log)")  # fmt: skip
     add("--tuning", metavar="FILE.json",
         help="limits from `bondgraph tune` (default: learned from the first seconds)")  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
@@ -14,8 +15,11 @@ from bondgraph.text.limits import RATE, TUNING_BYTES
 from bondgraph.text.regular_file import check_regular
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from typing import Unpack
 
+    from bondgraph.ir.graph import BondGraph
+    from bondgraph.ir.unit import Unit
     from bondgraph.pipeline import Form, OptionValues
     from bondgraph.runtime.diagnosis.tuning import Tuning
 
@@ -35,17 +39,85 @@ def _number(kind: Callable[[str], T], name: str, good: Callable[[T], bool]) -> C
     return read
 
 
+class Amount(float):
+    """A number in SI that was written with a unit, or without one."""
+
+    unit: Unit | None = None
+
+
+def amount(text: str) -> Amount:
+    """`4`, `4 s` or `4s` in SI; raises ValueError for anything else.
+
+    >>> amount("4 ms"), amount("4 ms").unit.text, amount("1e3").unit
+    (0.004, 'ms', None)
+    """
+    found = _AMOUNT.fullmatch(text.strip())
+    if found is None:
+        raise ValueError
+    number, spelled = found.groups()
+    if not spelled:
+        return Amount(number)
+    from bondgraph.library.units import parse_unit
+
+    unit = parse_unit(spelled)
+    if unit is None:
+        raise ValueError
+    value = Amount(float(number) * unit.factor)
+    value.unit = unit
+    return value
+
+
+_AMOUNT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?inf|nan)\s*(\D.*)?")
+
+
+def quantity(
+    unit: str, good: Callable[[float], bool], limits: str = "above 0"
+) -> Callable[[str], float]:
+    """Reads a number in a unit, or with a unit of the same dimension: `4`, `"4 s"`, `"4 min"`.
+
+    Turns are 2 pi radians where an angular frequency is wanted in rad/s; a frequency in Hz is not
+    taken in radians.
+    """
+
+    def read(text: str) -> float:
+        from bondgraph.library.units import parse_unit
+
+        value = amount(text)
+        wanted = parse_unit(unit)
+        assert wanted is not None
+        number, own = float(value), value.unit
+        if own is not None:
+            turning = "Hz" in own.text
+            if own.dimension != wanted.dimension or (unit == "Hz" and not turning):
+                raise ValueError
+            if unit == "rad/s" and turning:
+                number *= 2.0 * math.pi
+        if not good(number):
+            raise ValueError
+        return number
+
+    read.__name__ = f"number {limits}, in {unit} or with a unit,"
+    return read
+
+
+def _sampled(value: float) -> bool:
+    return 1.0 / RATE <= value <= RATE
+
+
 positive = _number(float, "positive number", lambda value: 0 < value < math.inf)
-frequency = _number(float, f"number from {1 / RATE:g} to {RATE:g}", lambda v: 1 / RATE <= v <= RATE)
+seconds = quantity("s", lambda value: 0 < value < math.inf)
+hertz = quantity("Hz", lambda value: 0 < value < math.inf)
+sample_rate = quantity("Hz", _sampled, f"from {1 / RATE:g} to {RATE:g}")
+bandwidth = quantity("rad/s", _sampled, f"from {1 / RATE:g} to {RATE:g}")
 pace = _number(float, "positive number", lambda value: value > 0)
 bits = _number(int, "number of bits from 1 to 52", lambda value: 1 <= value <= 52)
 count = _number(int, "number above 0", lambda value: value >= 1)
 
 
-def assigned(text: str) -> tuple[str, float]:
-    """`NAME=VALUE`; raises ValueError for anything else."""
+def assigned(text: str) -> tuple[str, Amount]:
+    """`NAME=VALUE`, the value in SI or with a unit; raises ValueError for anything else."""
     name, _, number = text.rpartition("=")
-    value = float(number)
+    value = amount(number)
     if not name or not math.isfinite(value):
         raise ValueError
     return name, value
@@ -54,9 +126,32 @@ def assigned(text: str) -> tuple[str, float]:
 assigned.__name__ = "NAME=VALUE"
 
 
-def noise(text: str) -> tuple[str, float]:
-    """`NAME=DEVIATION`, or the deviation of all sensors with an empty name."""
-    name, value = assigned(text) if "=" in text else ("", float(text))
+def check_units(graph: BondGraph, given: Iterable[tuple[str, Amount]]) -> None:
+    """Raise `Trouble` where a signal was given in a unit of another dimension.
+
+    What is said of an encoder, which counts angles or lengths, may be of these or of their speed.
+    """
+    from bondgraph.ir.unit import times
+    from bondgraph.library.units import parse_unit
+
+    known = {s.name: (s.dimension, s.unit, bool(s.counts)) for s in graph.sensors}
+    known |= {i.name: (i.dimension, i.unit, False) for i in graph.inputs}
+    per_second = parse_unit("1/s")
+    assert per_second is not None
+    for name, value in given:
+        dimension, unit, encoder = known.get(name, (None, "", False))
+        if value.unit is None or dimension is None:
+            continue
+        fitting = [dimension]
+        if encoder:
+            fitting.append(times(dimension, per_second.dimension))
+        if value.unit.dimension not in fitting:
+            raise Trouble(f"`{name}` is in {unit or 'no unit'}, not in {value.unit.text}")
+
+
+def noise(text: str) -> tuple[str, Amount]:
+    """`NAME=DEVIATION`, or the deviation of all sensors with an empty name, which has no unit."""
+    name, value = assigned(text) if "=" in text else ("", Amount(text))
     if not 0 <= value < math.inf:
         raise ValueError
     return name, value
@@ -97,13 +192,14 @@ def setting(text: str) -> tuple[str, str]:
     try:
         return name, repr(float(value))
     except ValueError:
-        return name, _quoted(value)
+        return name, quoted(value)
 
 
 setting.__name__ = "NAME=VALUE"
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
+    """A text as TOML has it."""
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
@@ -128,7 +224,7 @@ def model_of(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
         report = Report()
         sources.append(read(args.parameters, report))
         report.stop_on_error()
-    sources += [Source("--set", f"parameters.{_quoted(n)} = {v}") for n, v in args.set]
+    sources += [Source("--set", f"parameters.{quoted(n)} = {v}") for n, v in args.set]
     given: dict[str, float] = {}
     offsets: dict[str, float] = {}
     for source in filter(None, sources):
@@ -167,9 +263,9 @@ def further(parser: ArgumentParser) -> None:
 def sampling(parser: ArgumentParser) -> None:
     """The arguments that say how the machine is sampled."""
     rate = Options().rate
-    parser.add_argument("--rate", metavar="HZ", type=frequency, default=rate,
+    parser.add_argument("--rate", metavar="HZ", type=sample_rate, default=rate,
                         help=f"samples a second (default: {rate:g})")  # fmt: skip
-    parser.add_argument("--bandwidth", metavar="RAD/S", type=frequency, default=None,
+    parser.add_argument("--bandwidth", metavar="RAD/S", type=bandwidth, default=None,
                         help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
     parser.add_argument("--bits", metavar="N", type=bits, default=12,
                         help="resolution of the samples (default: 12)")  # fmt: skip
@@ -186,7 +282,7 @@ def signals(parser: ArgumentParser) -> None:
     parser.add_argument("--swing", metavar="NAME=AMPLITUDE", type=assigned, action="append",
                         default=[], help="how far a signal swings around that; may be"
                         " repeated")  # fmt: skip
-    parser.add_argument("--frequency", metavar="HZ", type=positive, default=1.0,
+    parser.add_argument("--frequency", metavar="HZ", type=hertz, default=1.0,
                         help="of the swing (default: 1)")  # fmt: skip
     parser.add_argument("--kappa", metavar="K", type=positive, default=5.0,
                         help="standard deviations of noise below the threshold"
@@ -233,3 +329,13 @@ def read_tuning(path: str) -> Tuning:
             return Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:
         raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
+
+
+def serving(parser: ArgumentParser, port: int) -> None:
+    """Where a page is served."""
+    add = parser.add_argument
+    add("--port", metavar="N", type=int, default=port,
+        help=f"where the page is served; 0 for any that is free (default: {port})")  # fmt: skip
+    add("--host", metavar="NAME", default="127.0.0.1",
+        help="address to serve at (default: 127.0.0.1, this computer only)")  # fmt: skip
+    add("--no-browser", action="store_true", help="do not open the page")

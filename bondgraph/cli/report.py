@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation
 from bondgraph.cli import console
 from bondgraph.cli.detect import situation_of
-from bondgraph.cli.options import further, opened, realised, sampling, signals
+from bondgraph.cli.options import check_units, further, opened, realised, sampling, signals
 from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
@@ -48,6 +48,7 @@ def run(args: Namespace) -> int:
     from bondgraph.cli.reporting.seen import assumed, observed
 
     compilation = opened(args)
+    check_units(compilation.graph, (*args.at, *args.swing, *args.noise))
     runs: list[Run] = []
 
     def assume(program: Program) -> Assumed:

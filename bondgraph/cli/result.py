@@ -9,8 +9,9 @@ from bondgraph.cli.reasons import message, reason
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
 from bondgraph.ir.signature_matrix import Detectability, ModeSignatures
-from bondgraph.notation.latex import latex
+from bondgraph.notation.latex import latex, lettered
 from bondgraph.notation.parsable import Names, parsable
+from bondgraph.notation.typeset import Letters
 from bondgraph.pipeline import Compilation
 
 
@@ -24,10 +25,10 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
 
     graph = compilation.graph
     matrix = compilation.signatures
-    names = names_of(graph)
+    names, spelled = Names(graph.names), lettered(graph.names)
     lasting, best = compilation.detectability, compilation.maximum_isolability
     arrs = [
-        _arr(graph, residual, lasting, names)
+        _arr(graph, residual, lasting, names, spelled)
         for residual in compilation.residuals.residual_set.residuals
     ]
     used = {symbol for _, symbols in arrs for symbol in symbols}
@@ -83,19 +84,12 @@ def _modes(found: ModeSignatures) -> dict[str, object]:
     return {"modes": listed, "modes_total": found.total}
 
 
-def names_of(graph: BondGraph) -> Names:
-    """The identifier of every name of the model that can occur in a residual."""
-    symbols = [v.symbol for v in graph.values]
-    symbols += [i.symbol for i in graph.inputs]
-    symbols += [s.symbol for s in graph.sensors]
-    return Names(dict.fromkeys(s.symbol.name for s in symbols))
-
-
 def _arr(
     graph: BondGraph,
     residual: Residual,
     lasting: Detectability,
     names: Names,
+    spelled: Letters,
 ) -> tuple[dict[str, object], tuple[str, ...]]:
     root = tidy(graph.pool, *graph.pool.logged([residual.expr]))[0]
     matrix, weak = lasting.matrix, lasting.weak(residual.name)
@@ -121,5 +115,5 @@ def _arr(
     if written.defs:
         arr["defs"] = [list(definition) for definition in written.defs]
     else:
-        arr["latex"] = latex(root, graph.initial_values())
+        arr["latex"] = latex(root, graph.initial_values(), spelled)
     return arr, written.symbols

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import os
 import sys
+from functools import partial
 from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
-from bondgraph.cli.options import assigned, model_of, numbered, pace, positive
+from bondgraph.cli.options import assigned, check_units, model_of, numbered, pace, seconds
+from bondgraph.cli.sweeps import Setting, draw, settings, sweep
+from bondgraph.picture import suffix_of
 from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Callable
 
     from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.log import Log
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
 
@@ -27,13 +33,24 @@ def arguments(parser: ArgumentParser) -> None:
                         help="the log, .csv or .parquet (default: scenario.csv)")  # fmt: skip
     parser.add_argument("--truth", metavar="FILE",
                         help="also write states and true values, without noise")  # fmt: skip
-    parser.add_argument("--duration", metavar="S", type=positive, default=None,
-                        help="seconds (default: as the scenario says, or 10)")  # fmt: skip
+    parser.add_argument("--duration", metavar="S", type=seconds, default=None,
+                        help="seconds, or with a unit (default: as the scenario says, or"
+                        " 10)")  # fmt: skip
     parser.add_argument("--seed", metavar="N", type=int, default=None,
                         help="seed of all that is drawn at random")  # fmt: skip
+    parser.add_argument("--sweep", metavar="NAME=FROM..TO/COUNT", type=sweep, action="append",
+                        default=[], help="a run for each of so many values of a parameter or a"
+                        " constant input, or for each of a list (R=1,2,5); may be"
+                        " repeated")  # fmt: skip
+    parser.add_argument("--plot", metavar="FILE",
+                        help="all runs in one picture: .png, .svg, .pdf or .html")  # fmt: skip
+    parser.add_argument("--show", metavar="NAMES", default="",
+                        help="the signals of the picture, separated by commas (default: all that"
+                        " the log has)")  # fmt: skip
     numbered(parser)
     parser.add_argument("--input", metavar="NAME=VALUE", type=assigned, action="append",
-                        default=[], help="a constant input, in SI; may be repeated")  # fmt: skip
+                        default=[], help="a constant input, in SI or with a unit; may be"
+                        " repeated")  # fmt: skip
     parser.add_argument("--stream", action="store_true",
                         help="run without an end, and print the samples as lines of CSV while they"
                         " are taken")  # fmt: skip
@@ -45,32 +62,67 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Simulate, write the log, say how it ended."""
-    from bondgraph.runtime.log_file import write_log
-
     compilation = model_of(args)
     chosen = _scenario(args, compilation)
     if args.stream:
         return stream(compilation, chosen, args.speed)
-    notes: list[str] = []
-    with console.progress_bar("simulating") as progress:
-        try:
-            found = compilation.simulate(chosen, progress, tell=notes.append)
-        except KeyError as error:
-            raise _without_value(error) from error
-    for note in notes:
-        print(f"note: {note}", file=sys.stderr)
-    files = [args.output or f"{_stem(chosen.name)}.csv"]
-    write_log(found.log, files[0])
+    if args.plot:
+        suffix_of(args.plot)  # before the work
+    runs = _runs(compilation, settings(compilation, chosen, args.sweep))
+    files = [] if args.plot and not args.output else _logs(args, chosen.name, runs)
     if args.truth:
-        write_log(found.truth, args.truth)
-        files.append(args.truth)
+        files += _named(args.truth, [found.truth for _, found in runs])
+    if args.plot:
+        wanted = [n.strip() for n in args.show.split(",") if n.strip()]
+        draw(compilation, args.plot, runs, wanted)
+        files.append(args.plot)
+    first = runs[0][1]
+    results = [{"label": label, **_result(found)} for label, found in runs]
     return console.told(
         args.json,
         compilation.report.diagnostics,
-        _message(compilation, found),
-        lambda: {"files": files, **_result(found)},
-        lambda: _lines(compilation, found, files),
+        _message(compilation, runs),
+        lambda: {"files": files, **_result(first)} | ({"runs": results} if args.sweep else {}),
+        lambda: _lines(compilation, runs, files),
     )
+
+
+def _runs(compilation: Compilation, wanted: list[Setting]) -> list[tuple[str, Run]]:
+    """The runs, one after the other; notes go to the error stream, each once."""
+    notes: dict[str, None] = {}
+    found = []
+    with console.progress_bar("simulating") as progress:
+        for at, (label, scenario) in enumerate(wanted):
+            share = partial(_share, progress, at, len(wanted))
+            try:
+                run = compilation.simulate(scenario, share, tell=notes.setdefault)
+            except KeyError as error:
+                raise _without_value(error) from error
+            found.append((label, run))
+    for note in notes:
+        print(f"note: {note}", file=sys.stderr)
+    return found
+
+
+def _share(progress: Callable[[float], None], at: int, runs: int, done: float) -> None:
+    """How far one of several runs is, as a share of all of them."""
+    progress((at + done) / runs)
+
+
+def _logs(args: Namespace, name: str, runs: list[tuple[str, Run]]) -> list[str]:
+    return _named(args.output or f"{_stem(name)}.csv", [found.log for _, found in runs])
+
+
+def _named(path: str, logs: list[Log]) -> list[str]:
+    """Write logs, several under numbered names; the names."""
+    from bondgraph.runtime.log_file import write_log
+
+    stem, suffix = os.path.splitext(path)
+    many = len(logs) > 1
+    paths = [f"{stem}-{k}{suffix}" if many else path for k in range(1, len(logs) + 1)]
+    for own, log in zip(paths, logs, strict=True):
+        write_log(log, own)
+    return paths
 
 
 def _without_value(error: KeyError) -> Trouble:
@@ -123,10 +175,11 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
     named = [name for name, _ in args.set]
     parameters = {**chosen.parameters, **{name: numbers[name] for name in named}}
     modes = dict(chosen.modes)
+    check_units(graph, args.input)
     for name, value in args.input:
         _known(name, "input", [i.name for i in graph.inputs if not i.of])
         mode = any(i.name == name and i.mode for i in graph.inputs)
-        (modes if mode else inputs)[name] = Course.constant(value)
+        (modes if mode else inputs)[name] = Course.constant(float(value))
     driven = {c.input for c in chosen.controllers} & {name for name, _ in args.input}
     if driven:
         raise Trouble(f"`{min(driven)}` is driven by a controller of the scenario")
@@ -150,10 +203,11 @@ def _stem(name: str) -> str:
     return "".join(c if c.isalnum() or c in "-_." else "_" for c in name) or "run"
 
 
-def _message(compilation: Compilation, found: Run) -> str:
-    log = found.log
+def _message(compilation: Compilation, runs: list[tuple[str, Run]]) -> str:
+    log = runs[0][1].log
+    many = f"{len(runs)} runs of " if len(runs) > 1 else ""
     return (
-        f"{compilation.graph.name}: {log.time[-1]:g} s, {len(log.time)} samples of"
+        f"{compilation.graph.name}: {many}{log.time[-1]:g} s, {len(log.time)} samples of"
         f" {len(log.columns)} signals"
     )
 
@@ -174,9 +228,11 @@ def _result(found: Run) -> dict[str, object]:
     }
 
 
-def _lines(compilation: Compilation, found: Run, files: list[str]) -> list[str]:
+def _lines(compilation: Compilation, runs: list[tuple[str, Run]], files: list[str]) -> list[str]:
+    found = runs[0][1]
     scenario = found.scenario
-    lines = [_message(compilation, found)]
+    lines = [_message(compilation, runs)]
+    lines += [f"run {k}: {label}" for k, (label, _) in enumerate(runs, 1) if label]
     for fault in scenario.faults:
         until = "" if fault.until > scenario.duration else f" to {fault.until:g} s"
         lines.append(f"fault from {fault.at:g} s{until}: {fault.label}")

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph.cli import console
 from bondgraph.cli.log_options import logged, read_logs, times_of
-from bondgraph.cli.options import frequency, isolating, positive, realised, realising
+from bondgraph.cli.options import (
+    bandwidth,
+    isolating,
+    positive,
+    realised,
+    realising,
+    sample_rate,
+    seconds,
+)
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 from bondgraph.text.whole_file import write_whole
@@ -45,13 +53,13 @@ def arguments(parser: ArgumentParser) -> None:
                         help="where to write the limits (default: tuning.json)")  # fmt: skip
     parser.add_argument("--false-alarms", metavar="N", type=positive, default=1.0,
                         help="false alarms an hour, of all residuals (default: 1)")  # fmt: skip
-    parser.add_argument("--bandwidth", metavar="RAD/S", type=frequency, action="append", default=[],
+    parser.add_argument("--bandwidth", metavar="RAD/S", type=bandwidth, action="append", default=[],
                         help="of the filter; of several the best one is taken (default: five"
                         " are tried)")  # fmt: skip
-    parser.add_argument("--window", metavar="S", type=positive, default=None,
+    parser.add_argument("--window", metavar="S", type=seconds, default=None,
                         help="seconds in which a fault has to show (default: 40 time constants of"
                         " the default filter)")  # fmt: skip
-    parser.add_argument("--rate", metavar="HZ", type=frequency, default=None,
+    parser.add_argument("--rate", metavar="HZ", type=sample_rate, default=None,
                         help="samples a second (default: that of the first log)")  # fmt: skip
     logged(parser.add_argument)
     isolating(parser)

@@ -16,7 +16,7 @@ from bondgraph.exact.signal_algebra import Algebra, Exponentials, Mixed, Taylor,
 from bondgraph.field.balls import zero_of
 from bondgraph.field.numbers import Number, Numbers, Undefined
 from bondgraph.field.series import Series
-from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Rational, Symbol, topological
 
 
 class Assignment(Protocol):
@@ -106,8 +106,7 @@ def _numbers(roots: tuple[Expr, ...], sample: Assignment) -> dict[Expr, Number] 
             if node.op is Op.ADD:
                 total = 0
                 for c, a in zip(node.coefficients, node.args, strict=True):
-                    weight = c.numerator if c.denominator == 1 else numbers.fraction(c)
-                    total += weight * values[a]
+                    total += weighed(numbers, c) * values[a]
             elif node.op is Op.MUL:
                 total = 1
                 for a, e in zip(node.args, node.exponents, strict=True):
@@ -122,9 +121,14 @@ def _numbers(roots: tuple[Expr, ...], sample: Assignment) -> dict[Expr, Number] 
     return values
 
 
+def weighed(numbers: Numbers, coefficient: Rational) -> Number:
+    """A rational number as one of these; a whole one stays an int, which multiplies faster."""
+    return coefficient if isinstance(coefficient, int) else numbers.fraction(coefficient)
+
+
 def _power(numbers: Numbers, x: Number, exponent: int) -> Number:
     base = x if exponent > 0 else numbers.inverse(x)
-    return base ** abs(exponent)
+    return base if exponent in (1, -1) else base ** abs(exponent)
 
 
 def _number_slopes(
@@ -140,14 +144,14 @@ def _number_slopes(
         out[node] = adjoint
         if node.op is Op.ADD:
             for c, a in zip(node.coefficients, node.args, strict=True):
-                part = (c.numerator if c.denominator == 1 else numbers.fraction(c)) * adjoint
-                adjoints[a] = adjoints.get(a, 0) + part
+                adjoints[a] = adjoints.get(a, 0) + weighed(numbers, c) * adjoint
         elif node.op is Op.MUL:
-            for a, e in zip(node.args, node.exponents, strict=True):
+            powers = [_power(numbers, values[a], e) for a, e in node.factors]
+            for at, (a, e) in enumerate(node.factors):
                 slope = adjoint if e == 1 else adjoint * e * _power(numbers, values[a], e - 1)
-                for b, f in zip(node.args, node.exponents, strict=True):
-                    if b is not a:
-                        slope *= values[b] if f == 1 else _power(numbers, values[b], f)
+                for k, power in enumerate(powers):
+                    if k != at:
+                        slope *= power
                 adjoints[a] = adjoints.get(a, 0) + slope
     return out
 
@@ -237,15 +241,10 @@ def node_value(
     """The value of one node from those of its arguments."""
     op = node.op
     if op is Op.ADD:
-        fraction = algebra.numbers.fraction
-        terms = [
-            (c.numerator if c.denominator == 1 else fraction(c), values[a])
-            for c, a in zip(node.coefficients, node.args, strict=True)
-        ]
-        return algebra.combine(terms, n)
+        numbers = algebra.numbers
+        return algebra.combine([(weighed(numbers, c), values[a]) for c, a in node.terms], n)
     if op is Op.MUL:
-        factors = [(values[a], e) for a, e in zip(node.args, node.exponents, strict=True)]
-        return algebra.product(factors, n)
+        return algebra.product([(values[a], e) for a, e in node.factors], n)
     if op is Op.SYM:
         return sample.value(node)
     if op is Op.NUM:
@@ -299,8 +298,7 @@ def slopes(
     if jumps and node.op is Op.FN and node.name == "sign":
         return [(args[0], algebra.number(_JUMP))]
     if node.op is Op.ADD:
-        numbers = [algebra.number(algebra.numbers.fraction(c)) for c in node.coefficients]
-        return list(zip(args, numbers, strict=True))
+        return [(a, algebra.number(weighed(algebra.numbers, c))) for c, a in node.terms]
     if node.op is Op.MUL:
         out = []
         for at, (a, e) in enumerate(zip(args, node.exponents, strict=True)):
@@ -364,22 +362,25 @@ def pull(
     With `jumps` what a decision rests on counts as having an influence.
     """
 
-    def give(node: Expr, part: Any) -> None:
-        if not algebra.vanishes(part):
-            known = adjoints.get(node)
-            adjoints[node] = part if known is None else algebra.join(known, part)
-
+    vanishes, join = algebra.vanishes, algebra.join
     for node in reversed(nodes):
         adjoint = adjoints.get(node)
-        if adjoint is None or not node.args or algebra.vanishes(adjoint):
+        if adjoint is None or not node.args or vanishes(adjoint):
             continue
         if node.op is Op.DER:
-            give(node.args[0], algebra.back_der(adjoint, values[node.args[0]]))
+            parts = [(node.args[0], algebra.back_der(adjoint, values[node.args[0]]))]
         elif node.op is Op.INT:
-            give(node.args[0], algebra.back_integral(adjoint))
+            parts = [(node.args[0], algebra.back_integral(adjoint))]
+        elif node.op is Op.ADD:
+            numbers = algebra.numbers
+            parts = [(a, algebra.times(adjoint, weighed(numbers, c))) for c, a in node.terms]
         else:
-            for argument, slope in slopes(node, values, algebra, need[node], jumps):
-                give(argument, algebra.back(adjoint, slope, need[argument]))
+            found = slopes(node, values, algebra, need[node], jumps)
+            parts = [(a, algebra.back(adjoint, slope, need[a])) for a, slope in found]
+        for argument, part in parts:
+            if not vanishes(part):
+                known = adjoints.get(argument)
+                adjoints[argument] = part if known is None else join(known, part)
 
 
 class Forward:
@@ -523,7 +524,7 @@ def root_value(node: Expr, args: Sequence[Any], sample: Any, n: int) -> Any:
     """
     algebra = sample.algebra
     if not isinstance(algebra, Taylor):
-        if isinstance(algebra, Exponentials) and all(not a.degree for a in args):
+        if isinstance(algebra, Exponentials) and not any(degree for _, degree in args):
             raise Undefined("a root of constants among exponentials")
         raise Mixed("an equation without a closed solution")
     root = node.root

@@ -80,11 +80,11 @@ class ExponentialSample:
             return known
         constant = self._constants.get(symbol)
         if constant is not None:
-            return Exponential(constant[0], 0)
+            return (constant[0], 0)
         if symbol not in self._place:
             raise Mixed("the initial value of a state")
         variable, sign = self._place[symbol]
-        return Exponential(self._found[variable] * sign, 1)
+        return (self._found[variable] * sign, 1)
 
     def start(self, initial: Symbol) -> Number:
         """Exponentials have no integrals from an initial value."""
@@ -96,7 +96,7 @@ class ExponentialSample:
 
     def tell(self, symbol: Expr, amplitude: Number) -> None:
         """Say what a residual is told about a signal."""
-        self._told[symbol] = Exponential(amplitude, 1)
+        self._told[symbol] = (amplitude, 1)
 
 
 def tell(
@@ -104,10 +104,10 @@ def tell(
 ) -> None:
     """Fill in what sensors show, and the errors of sensors and known inputs."""
     for symbol, reads in readings.items():
-        value = evaluate([reads], sample)[0]
-        if value.amplitude and value.degree != 1:
+        amplitude, degree = evaluate([reads], sample)[0]
+        if amplitude and degree != 1:
             raise Mixed("a sensor that is not linear")
-        sample.tell(symbol, value.amplitude + errors.get(symbol, 0))
+        sample.tell(symbol, amplitude + errors.get(symbol, 0))
     for symbol, error in errors.items():
         if symbol.symbol.kind in KNOWN_SIGNALS and symbol not in readings:
-            sample.tell(symbol, sample.value(symbol).amplitude - error)
+            sample.tell(symbol, sample.value(symbol)[0] - error)

@@ -6,7 +6,7 @@ import random
 from typing import Any
 
 from bondgraph.exact.outline import highest_order, outline
-from bondgraph.exact.signal_algebra import Algebra, Exponential, Exponentials, Taylor
+from bondgraph.exact.signal_algebra import Algebra, Exponentials, Taylor
 from bondgraph.field.numbers import Number
 from bondgraph.field.prime import PrimeField
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Symbol
@@ -44,7 +44,7 @@ class FreeSample:
         draw = random.Random(f"{source}:{symbol.symbol.name}")
         numbers = self._algebra.numbers
         if isinstance(self._algebra, Exponentials):
-            return Exponential(numbers.any(draw), int(signal))
+            return (numbers.any(draw), int(signal))
         if symbol.symbol.kind is Kind.MODE:
             return [draw.randrange(2)]
         if not signal:

@@ -392,7 +392,7 @@ class Plant:
         for attempt in range(ATTEMPTS):
             numbers = PrimeField(seed * ATTEMPTS + attempt)
             random = Random(seed * 2011 + attempt)
-            algebra = Exponentials(numbers, numbers.any(random), numbers.any(random))
+            algebra = Exponentials(numbers, numbers.any(random), numbers.any(random), terms=0)
             try:
                 constants = self.draw_constants(seed, attempt, modes, numbers)
                 true = dict(constants)

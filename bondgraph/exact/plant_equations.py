@@ -5,12 +5,14 @@ An equation is linear form + rest = 0, where the rest is an expression only if i
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
+from fractions import Fraction
+from functools import lru_cache
 from random import Random
 from typing import NamedTuple
 
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.evaluate import evaluate, values_of
+from bondgraph.exact.evaluate import evaluate, values_of, weighed
 from bondgraph.exact.forms import ORDERS, Form, Forms
 from bondgraph.exact.outline import demands, plan
 from bondgraph.exact.signal_algebra import Mixed
@@ -21,15 +23,11 @@ from bondgraph.ir.expr import Expr, Op, Symbol, topological
 
 
 class Equation(NamedTuple):
-    """form + rest = 0. `node` is the index of the bond graph's node, -1 for none.
-
-    `signature[j]` is the highest derivative of variable j, free variables left out.
-    """
+    """form + rest = 0. `node` is the index of the bond graph's node, -1 for none."""
 
     node: int
     form: Form
     rest: Expr | None
-    signature: dict[int, int]
 
 
 class Setting(NamedTuple):
@@ -81,17 +79,16 @@ class Writer:
         self.assembly = assembly
         self.setting = setting
         self.sample = FormSample(assembly.place, setting)
-        self.free = frozenset((*assembly.free, *assembly.unknown))
 
     def all(self, readings: Mapping[str, Series]) -> list[Equation]:
         """The equations; `readings` are errors that faulty sensors add to what they read."""
         plant = self.assembly
-        out = [self.linear(-1, {v * ORDERS: [1]}) for v in plant.silent]
+        out = [Equation(-1, {v * ORDERS: [1]}, None) for v in plant.silent]
         for node, terms, when, common in plant.balances:
             if when is not None and not self.holds(when):
-                out.append(self.linear(node, {common * ORDERS: [1]}))
+                out.append(Equation(node, {common * ORDERS: [1]}, None))
             elif terms:
-                out.append(self.linear(node, {v * ORDERS: [c] for v, c in terms}))
+                out.append(Equation(node, {v * ORDERS: [c] for v, c in terms}, None))
         parts: list[tuple[int, Form, Expr]] = [(node, {}, zero) for node, zero in plant.laws]
         for node, variable, value in plant.rates:
             parts.append((node, {variable * ORDERS + 1: [-1]}, value))
@@ -100,17 +97,26 @@ class Writer:
             if name in readings:
                 form[CONSTANT] = readings[name]
             parts.append((-1, form, reads))
-        rests = [rest for _, _, rest in parts]
+        values: dict[Expr, Form] = {}
+        rests = []
+        for _, _, rest in parts:
+            flat = self.flat(rest)
+            if flat is None:
+                rests.append(rest)
+            else:
+                values[rest] = flat
         nodes = topological(rests)
-        need = demands(nodes, rests, self.setting.n)
-        values, failures = values_of(nodes, need, self.sample)
+        others, failures = values_of(nodes, demands(nodes, rests, self.setting.n), self.sample)
+        values.update(others)
         for node, form, rest in parts:
             failure = failures.get(rest)
             if failure is None:
-                both = self.sample.algebra.combine([(1, values[rest]), (1, form)], self.setting.n)
-                out.append(self.linear(node, both))
+                found = values[rest]
+                if form:
+                    found = self.sample.algebra.combine([(1, found), (1, form)], self.setting.n)
+                out.append(Equation(node, found, None))
             elif isinstance(failure, Mixed):
-                out.append(self.nonlinear(node, form, rest))
+                out.append(Equation(node, form, rest))
             else:
                 raise failure
         return out
@@ -121,22 +127,71 @@ class Writer:
             *self.sample.algebra.leads(evaluate([when], self.sample)[0])
         )
 
-    def linear(self, node: int, form: Form) -> Equation:
-        """An equation without nonlinear rest."""
-        signature: dict[int, int] = {}
-        for key in form:
-            variable, order = divmod(key, ORDERS)
-            if key != CONSTANT and variable not in self.free:
-                signature[variable] = max(signature.get(variable, 0), order)
-        return Equation(node, form, None, signature)
+    def flat(self, law: Expr) -> Form | None:
+        """A law that is linear as it is written; None for any other, and where constants move."""
+        terms, place, values = _terms(law), self.assembly.place, self.setting.values
+        if terms is None:
+            return None
+        numbers, form = self.setting.numbers, dict[int, Number]()
+        for coefficient, factors in terms:
+            weight = weighed(numbers, coefficient)
+            key = CONSTANT
+            for symbol, exponent, order in factors:
+                where = place.get(symbol)
+                if where is not None:
+                    if key != CONSTANT or exponent != 1:
+                        return None
+                    key = where[0] * ORDERS + order
+                    weight *= where[1]
+                    continue
+                value = values.get(symbol)
+                if value is None or order or len(value) > 1:
+                    return None
+                x = value[0] if exponent > 0 else numbers.inverse(value[0])
+                weight *= x if exponent in (1, -1) else x ** abs(exponent)
+            form[key] = form.get(key, 0) + weight
+        return {key: [x] for key, x in form.items() if numbers.nonzero(x)}
 
-    def nonlinear(self, node: int, form: Form, rest: Expr) -> Equation:
-        """form + rest = 0 where the rest is not linear."""
-        signature = self.linear(node, form).signature
-        for variable, order in reach(self.assembly.place, rest).items():
-            if variable not in self.free:
-                signature[variable] = max(signature.get(variable, 0), order)
-        return Equation(node, form, rest, signature)
+
+@lru_cache(maxsize=1 << 14)
+def _terms(law: Expr) -> Sequence[tuple[Fraction, Sequence[tuple[Expr, int, int]]]] | None:
+    """A law as numbers times products of symbols, each to a power or differentiated; None if not.
+
+    >>> from bondgraph.ir.expr import Kind, Pool
+    >>> p = Pool(); e, f, R = [p.symbol(s, Kind.EFFORT) for s in "efR"]
+    >>> _terms(p.sub(e, p.mul(R, p.der(f))))
+    [(1, [(e, 1, 0)]), (-1, [(R, 1, 0), (f, 1, 1)])]
+    """
+    out = []
+    for coefficient, term in law.terms:
+        factors = []
+        for base, exponent in term.factors:
+            order = 0
+            while base.op is Op.DER:
+                base, order = base.args[0], order + 1
+            if base.op is Op.NUM and not order and len(term.args) == 0:
+                coefficient *= base.number
+                continue
+            if base.op is not Op.SYM:
+                return None
+            factors.append((base, exponent, order))
+        out.append((coefficient, factors))
+    return out
+
+
+def signature(
+    place: Mapping[Expr, tuple[int, int]], free: Collection[int], equation: Equation
+) -> dict[int, int]:
+    """The highest derivative of each variable in an equation, free ones left out."""
+    out: dict[int, int] = {}
+    for key in equation.form:
+        variable, order = divmod(key, ORDERS)
+        if key != CONSTANT and order >= out.get(variable, 0):
+            out[variable] = order
+    if equation.rest is not None:
+        for variable, order in reach(place, equation.rest).items():
+            out[variable] = max(out.get(variable, 0), order)
+    return {v: order for v, order in out.items() if v not in free} if free else out
 
 
 def reach(place: Mapping[Expr, tuple[int, int]], rest: Expr) -> dict[int, int]:
@@ -224,11 +279,11 @@ def coefficient_row(numbers: Numbers, form: Form, order: int, stride: int) -> Ro
                 row[CONSTANT] = weights[order]
             continue
         variable, derivative = divmod(key, ORDERS)
-        for m, weight in enumerate(weights[: order + 1]):
+        for m, weight in enumerate(weights if len(weights) == 1 else weights[: order + 1]):
             if weight:
                 low = order - m
-                for k in range(low + 1, low + derivative + 1):
+                for k in range(low + 1, low + derivative + 1) if derivative else ():
                     weight *= k
                 column = variable * stride + low + derivative
-                row[column] = row.get(column, 0) + weight
+                row[column] = row[column] + weight if column in row else weight
     return {c: x for c, x in row.items() if numbers.nonzero(x)}

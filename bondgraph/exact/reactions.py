@@ -112,9 +112,9 @@ class Reactions:
 
         Asked one by one only if all together do.
         """
-        if not candidates or self._unmoved_nearby(expr, candidates, but):
-            return []
         tried = [s for s in candidates if s not in but]
+        if not tried or self._unmoved_nearby(expr, tried):
+            return []
         try:
             alone = self.turns > 1 or _turns([expr], self.modes) > 1  # each in branches of its own
             if len(tried) > (_FEW if alone else 1) and not self._moves_anywhere(expr, tried):
@@ -187,16 +187,12 @@ class Reactions:
             raise failure
         return False
 
-    def _within(
-        self, part: Assembly, candidates: Collection[Expr], but: Collection[Expr] = ()
-    ) -> tuple[str, ...]:
+    def _within(self, part: Assembly, candidates: Collection[Expr]) -> tuple[str, ...]:
         """The names of the faults that can act in a part of the plant."""
-        reached = [s for s in self.plant.reached(part) if s in candidates and s not in but]
+        reached = self.plant.reached(part).intersection(candidates)
         return tuple(self._acting[s] for s in sorted(reached, key=_ID) if s in self._acting)
 
-    def _unmoved_nearby(
-        self, expr: Expr, candidates: Collection[Expr], but: Collection[Expr] = ()
-    ) -> bool:
+    def _unmoved_nearby(self, expr: Expr, candidates: Collection[Expr]) -> bool:
         """Whether faults leave a relation unmoved where it is all that the equations say.
 
         And so on the plant. Where nothing has branches: one point then stands for all.
@@ -204,10 +200,10 @@ class Reactions:
         if self.turns > 1 or self.modes or _turns([expr], None) > 1 or self.plant.modes:
             return False
         size, part = terms_needed([expr]), self.plant.part_for([expr])
-        changed = (s for s in self._faulty_parameters if s in candidates and s not in but)
-        if any(changed) or not self.plant.many([expr], size, part):
+        changed = any(s in candidates for s in self._faulty_parameters)
+        if changed or not self.plant.many([expr], size, part):
             part = self.plant.cone(expr)  # else the whole moves as it does without the faults
-        acting = self._within(part, candidates, but)
+        acting = self._within(part, candidates)
 
         def moved(number: int) -> bool:
             sample = self.plant.sample([expr], number, size, faults=acting, part=part)

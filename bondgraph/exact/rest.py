@@ -67,7 +67,7 @@ def _without_factor(plant: Assembly, equations: list[Equation], point: Point) ->
             with suppress(ZeroDivisionError):
                 if plant.pool.substitute([equation.rest], zero)[0] is plant.pool.zero:
                     at = plant.place[factors[0]][0]
-                    replaced = Equation(equation.node, {at * ORDERS: [1]}, None, {at: 0})
+                    replaced = Equation(equation.node, {at * ORDERS: [1]}, None)
                     return [*equations[:number], replaced, *equations[number + 1 :]]
     return equations
 

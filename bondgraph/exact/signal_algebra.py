@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from operator import mul as _times
-from typing import NamedTuple, Protocol, TypeVar
+from typing import Protocol, TypeAlias, TypeVar
 
 from bondgraph.field import series
 from bondgraph.field.numbers import Number, Numbers
@@ -93,6 +93,10 @@ class Algebra(Values[V], Protocol[V, A]):
 
     def back(self, adjoint: A, slope: V, n: int) -> A:
         """The adjoint of an argument with this partial derivative; n its coefficients."""
+        ...
+
+    def times(self, adjoint: A, c: Number) -> A:
+        """The adjoint of an argument that the value has `c` times."""
         ...
 
     def back_der(self, adjoint: A, argument: V) -> A:
@@ -201,10 +205,13 @@ class Taylor:
     def back(self, adjoint: Series, slope: Series, n: int) -> Series:
         """The adjoint of an argument."""
         if len(slope) == 1:
-            c = slope[0]
-            return [c * x for x in adjoint]
+            return self.times(adjoint, slope[0])
         size = len(adjoint)
         return [sum(map(_times, adjoint[m:], slope)) for m in range(size)]
+
+    def times(self, adjoint: Series, c: Number) -> Series:
+        """The adjoint of an argument that the value has a number of times."""
+        return [c * x for x in adjoint]
 
     def back_der(self, adjoint: Series, argument: Series) -> Series:
         """The adjoint of what was differentiated."""
@@ -227,25 +234,17 @@ class Taylor:
         return self.numbers.nonzero(adjoint[0])
 
 
-class Exponential(NamedTuple):
-    """amplitude * e^(degree s t); a constant has degree 0."""
+#: (amplitude, degree): amplitude * e^(degree s t); a constant has degree 0.
+Exponential: TypeAlias = tuple[Number, int]
 
-    amplitude: Number
-    degree: int
+#: (value, still, degree, floor, leading): an adjoint of an exponential, its number `value` for
+#: changes that grow like e^(sigma t), `still` for changes that are constant, sigma = 0. As a
+#: polynomial in sigma its coefficients from `degree` down to `floor` are `leading`; those below
+#: `floor` are not kept. Plain tuples: there is one a node.
+Impulse: TypeAlias = tuple[Number, Number, int, int, Series]
 
 
-class Impulse(NamedTuple):
-    """An adjoint of an exponential: its number `value` for changes that grow like e^(sigma t).
-
-    As a polynomial in sigma its coefficients from `degree` down to `floor` are `leading`; those
-    below `floor` are not kept. `still` is the number for changes that are constant, sigma = 0.
-    """
-
-    value: Number
-    still: Number
-    degree: int
-    floor: int
-    leading: Series
+_NONE: Series = []
 
 
 class Exponentials:
@@ -253,7 +252,8 @@ class Exponentials:
 
     For plants and residuals linear in their signals, in time independent of the order. Changes
     are taken as e^(sigma t) with a second random number, so that a parameter is a function of
-    time for the adjoints. `terms` leading coefficients are carried to find the order.
+    time for the adjoints. `terms` leading coefficients are carried to find the order; without any
+    the order found is as high as it can be.
     """
 
     def __init__(self, numbers: Numbers, s: Number, sigma: Number, terms: int = 3) -> None:
@@ -265,13 +265,13 @@ class Exponentials:
 
     def number(self, x: Number) -> Exponential:
         """A constant."""
-        return Exponential(x, 0)
+        return (x, 0)
 
     def leads(self, *values: Exponential) -> list[Number]:
         """The values at the point."""
-        if any(a.degree and a.amplitude for a in values):
+        if any(degree and amplitude for amplitude, degree in values):
             raise Mixed("a decision on a signal")
-        return [a.amplitude for a in values]
+        return [amplitude for amplitude, _ in values]
 
     def combine(self, terms: Sequence[tuple[Number, Exponential]], n: int) -> Exponential:
         """The sum of number times value."""
@@ -283,7 +283,7 @@ class Exponentials:
                     raise Mixed("a sum of a signal and a constant")
                 degree = d
                 total += c * x
-        return Exponential(total, degree or 0)
+        return (total, degree or 0)
 
     def product(self, factors: Sequence[tuple[Exponential, int]], n: int) -> Exponential:
         """The product of integer powers."""
@@ -294,41 +294,42 @@ class Exponentials:
             elif exponent:
                 value = value * (x**exponent if x else root(x, Fraction(exponent)))
             degree += d * exponent
-        return Exponential(value, degree)
+        return (value, degree)
 
     def _constants(self, args: Sequence[Exponential]) -> list[Series]:
-        if any(a.degree and a.amplitude for a in args):
+        if any(degree and amplitude for amplitude, degree in args):
             raise Mixed("a function of a signal")
-        return [[a.amplitude] for a in args]
+        return [[amplitude] for amplitude, _ in args]
 
     def rational(self, a: Exponential, exponent: Fraction, n: int) -> Exponential:
         """A rational power."""
-        return Exponential(root(self._constants([a])[0][0], exponent), 0)
+        return (root(self._constants([a])[0][0], exponent), 0)
 
     def function(self, name: str, args: Sequence[Exponential], n: int) -> Exponential:
         """A function of one or two arguments."""
-        if name in ("sign", "abs") and args[0].degree:
+        if name in ("sign", "abs") and args[0][1]:
             raise Mixed("a function of a signal")
         constants = self._constants(args)
         if len(args) == 1:
-            return Exponential(series.function(self.numbers, name, constants[0], 1)[0], 0)
+            return (series.function(self.numbers, name, constants[0], 1)[0], 0)
         a, b = constants
-        return Exponential(series.function_of_two(self.numbers, name, a, b, 1)[0], 0)
+        return (series.function_of_two(self.numbers, name, a, b, 1)[0], 0)
 
     def slopes(
         self, name: str, args: Sequence[Exponential], value: Exponential, n: int
     ) -> Sequence[Exponential]:
         """The partial derivatives of a function."""
         constants = self._constants(args)
-        f, of = self.numbers, [value.amplitude]
+        f, of = self.numbers, [value[0]]
         if len(args) == 1:
-            return [Exponential(series.slope_of(f, name, constants[0], of, 1)[0], 0)]
+            return [(series.slope_of(f, name, constants[0], of, 1)[0], 0)]
         both = series.slopes_of_two(f, name, constants[0], constants[1], of, 1)
-        return [Exponential(x[0], 0) for x in both]
+        return [(x[0], 0) for x in both]
 
     def der(self, a: Exponential) -> Exponential:
         """The time derivative."""
-        return Exponential(a.amplitude * a.degree * self.s, a.degree)
+        amplitude, degree = a
+        return (amplitude * degree * self.s, degree)
 
     def integral(self, a: Exponential, start: Number) -> Exponential:
         """The integral that begins at `start`."""
@@ -336,47 +337,55 @@ class Exponentials:
 
     def moves(self, a: Exponential) -> bool:
         """Whether the amplitude is not zero."""
-        return self.numbers.nonzero(a.amplitude)
+        return self.numbers.nonzero(a[0])
 
     def seed(self, x: Number) -> Impulse:
         """The adjoint of the result, times a number."""
-        return Impulse(x, x, 0, 0, [x])
+        return (x, x, 0, 0, [x] if self.terms else _NONE)
 
     def join(self, a: Impulse, b: Impulse) -> Impulse:
         """The sum of two adjoints."""
-        if a.degree < b.degree:
+        if a[2] < b[2]:
             a, b = b, a
-        leading = series.add(a.leading, [0] * (a.degree - b.degree) + b.leading)
-        degree, floor = a.degree, max(a.floor, b.floor)
+        value, still, degree, floor, leading = a
+        value, still, floor = value + b[0], still + b[1], max(floor, b[3])
+        if not self.terms:
+            return (value, still, degree, 0, _NONE)
+        leading = series.add(leading, [0] * (degree - b[2]) + b[4])
         while leading and not leading[0]:
             leading = leading[1:]
             degree -= 1
         floor = max(floor, degree - self.terms + 1)
         leading = leading[: max(0, degree - floor + 1)]
-        still = (a.still + b.still)
-        return Impulse((a.value + b.value), still, degree, floor, leading)
+        return (value, still, degree, floor, leading)
 
     def vanishes(self, a: Impulse) -> bool:
         """Whether an adjoint is zero."""
-        return not a.value
+        return not a[0]
 
     def back(self, adjoint: Impulse, slope: Exponential, n: int) -> Impulse:
         """The adjoint of an argument."""
-        c = slope.amplitude
+        return self.times(adjoint, slope[0])
+
+    def times(self, adjoint: Impulse, c: Number) -> Impulse:
+        """The adjoint of an argument that the value has a number of times."""
         value, still, degree, floor, leading = adjoint
-        leading = series.scale(c, leading)
-        return Impulse(value * c, still * c, degree, floor, leading)
+        if leading:
+            leading = series.scale(c, leading)
+        return (value * c, still * c, degree, floor, leading)
 
     def back_der(self, adjoint: Impulse, argument: Exponential) -> Impulse:
         """The adjoint of what was differentiated."""
-        own = argument.degree * self.s
+        own = argument[1] * self.s
         value, still, degree, floor, leading = adjoint
+        if not self.terms:
+            return (value * (self.sigma + own), still * own, degree + 1, 0, _NONE)
         # times (sigma + own); the lowest coefficient is complete only if nothing was cut off
         leading = series.add([*leading, 0], [0, *series.scale(own, leading)])
         floor = max(floor + 1 if floor else 0, degree + 2 - self.terms)
         leading = leading[: max(0, degree + 2 - floor)]
         value = value * (self.sigma + own)
-        return Impulse(value, still * own, degree + 1, floor, leading)
+        return (value, still * own, degree + 1, floor, leading)
 
     def back_integral(self, adjoint: Impulse) -> Impulse:
         """The adjoint of what was integrated."""
@@ -384,18 +393,21 @@ class Exponentials:
 
     def start_of(self, adjoint: Impulse) -> Number:
         """The part that belongs to the value itself."""
-        return adjoint.value
+        return adjoint[0]
 
     def order(self, adjoint: Impulse) -> int:
         """Raises `Mixed` when more leading coefficients cancel than are carried."""
-        for k, x in enumerate(adjoint.leading):
+        degree, leading = adjoint[2], adjoint[4]
+        if not self.terms:
+            return degree
+        for k, x in enumerate(leading):
             if x:
-                return adjoint.degree - k
+                return degree - k
         raise Mixed("leading coefficients cancel")
 
     def lasting(self, adjoint: Impulse) -> bool:
         """Whether a constant change has an influence."""
-        return bool(adjoint.still)
+        return bool(adjoint[1])
 
 
 def compare(numbers: Numbers, op: str, left: Number, right: Number) -> bool:

@@ -37,14 +37,14 @@ def rest(
 ) -> list[Series]:
     """The same for a plant that stands: all flows are zero, under whatever efforts."""
     flows = {v for s, (v, _) in plant.place.items() if s.symbol.kind is Kind.FLOW}
-    zero = [Equation(-1, {v * ORDERS: [1]}, None, {v: 0}) for v in sorted(flows)]
+    zero = [Equation(-1, {v * ORDERS: [1]}, None) for v in sorted(flows)]
     return _with([*_still(plant), *zero], plant, equations, setting, random)
 
 
 def _still(plant: Assembly) -> list[Equation]:
     grows = {v for s, (v, _) in plant.place.items() if s.symbol.kind in _MAY_GROW}
     stays = [v for v in range(plant.count_of) if v not in grows]
-    return [Equation(-1, {v * ORDERS + 1: [1]}, None, {v: 1}) for v in stays]
+    return [Equation(-1, {v * ORDERS + 1: [1]}, None) for v in stays]
 
 
 def _with(

@@ -16,7 +16,7 @@ from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.known import KnownSample, gradient
 from bondgraph.exact.offsets import Offsets, offsets
-from bondgraph.exact.plant_equations import Equation, Setting, coefficient_row
+from bondgraph.exact.plant_equations import Equation, Setting, coefficient_row, signature
 from bondgraph.exact.point import STRIDE, Point
 from bondgraph.exact.rest import settled
 from bondgraph.field.numbers import Number
@@ -47,7 +47,8 @@ class _System(NamedTuple):
 
 
 def _structure(plant: Assembly, equations: list[Equation]) -> _System:
-    found = offsets([e.signature for e in equations], plant.count_of)
+    free = frozenset((*plant.free, *plant.unknown))
+    found = offsets([signature(plant.place, free, e) for e in equations], plant.count_of)
     if found.unmatched:
         raise OverDetermined(equations[found.unmatched[0]].node)
     return _System(equations, found, found.free)
@@ -189,10 +190,10 @@ def _residue(equation: Equation, order: int, values: list[Series], sample: Known
             continue
         variable, derivative = divmod(key, ORDERS)
         known = values[variable]
-        for m, weight in enumerate(weights[: order + 1]):
+        for m, weight in enumerate(weights if len(weights) == 1 else weights[: order + 1]):
             at = order - m + derivative
             if at < len(known):
-                for k in range(order - m + 1, at + 1):
+                for k in range(order - m + 1, at + 1) if derivative else ():
                     weight *= k
                 total += weight * known[at]
     if equation.rest is not None:

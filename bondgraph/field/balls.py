@@ -65,7 +65,7 @@ class Reals:
         """A whole number."""
         return arb(x)
 
-    def fraction(self, value: Fraction) -> Number:
+    def fraction(self, value: int | Fraction) -> Number:
         """A rational number."""
         return arb(fmpq(value.numerator, value.denominator))
 

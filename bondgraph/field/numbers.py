@@ -41,7 +41,7 @@ class Numbers(Protocol):
         """A whole number."""
         ...
 
-    def fraction(self, value: Fraction) -> Number:
+    def fraction(self, value: int | Fraction) -> Number:
         """A rational number."""
         ...
 

@@ -37,7 +37,7 @@ def sign(x: Number) -> int:
     return power if power < 2 else -1
 
 
-def of_fraction(value: Fraction) -> Number:
+def of_fraction(value: int | Fraction) -> Number:
     """A rational number as field element; raises `Undefined` if P divides the denominator."""
     return nmod(value.numerator, P) * inverse(value.denominator)
 

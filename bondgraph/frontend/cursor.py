@@ -6,9 +6,13 @@ import re
 
 from bondgraph.frontend.lexer import split
 from bondgraph.frontend.words import KEYWORDS, RESERVED, is_arrow, say
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Edit, Label, Remedy, Report
 from bondgraph.text.limits import NAME_LETTERS, SYNTAX_ERRORS
 from bondgraph.text.source import Source, Span
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from bondgraph.frontend.odd import Odd
 
 _ODD_NAME = re.compile(rf"__|(?<!\w)_|(?<!\w)\w{{{NAME_LETTERS + 1}}}")
 
@@ -17,7 +21,7 @@ class SyntaxProblem(Exception):
     """A statement that cannot be understood; `at` is the word where that became clear."""
 
     def __init__(
-        self, code: str, message: str, labels: tuple[Label, ...], help: str, at: int
+        self, code: str, message: str, labels: tuple[Label, ...], help: str | Remedy, at: int
     ) -> None:
         super().__init__(message)
         self.code = code
@@ -77,9 +81,14 @@ class Cursor:
             return Span(self.source, end, end)
         return Span(self.source, self.starts[at], self.starts[at] + len(self.words[at]))
 
+    def end_of(self, at: int) -> Span:
+        """The empty place behind word `at`."""
+        end = self.starts[at] + len(self.words[at])
+        return Span(self.source, end, end)
+
     # ------------------------------------------------------------- complaints
 
-    def complain(self, code: str, message: str, *labels: Label, help: str) -> None:
+    def complain(self, code: str, message: str, *labels: Label, help: str | Remedy) -> None:
         """Report an error and go on as if all were well."""
         self.report.error(code, message, *labels, help=help)
         self.errors += 1
@@ -87,12 +96,12 @@ class Cursor:
             raise TooManyProblems
 
     def problem(
-        self, code: str, message: str, at: int, text: str = "", *more: Label, help: str
+        self, code: str, message: str, at: int, text: str = "", *more: Label, help: str | Remedy
     ) -> SyntaxProblem:
         """An error at word `at`, to be raised; the statement it is in is given up."""
         return SyntaxProblem(code, message, (Label(self.word_span(at), text), *more), help, at)
 
-    def unexpected(self, wanted: str, help: str, *more: Label) -> SyntaxProblem:
+    def unexpected(self, wanted: str, help: str | Remedy, *more: Label) -> SyntaxProblem:
         """The word at the cursor is not what the language allows here."""
         at = self.i
         word = self.words[at]
@@ -117,11 +126,19 @@ class Cursor:
         from bondgraph.frontend.odd import odd  # the slow path: only errors need it
 
         found = odd(self.source.text, self.words, self.starts, at)
-        return (
-            None
-            if found is None
-            else self.problem(found.code, found.message, found.at, found.label, help=found.help)
+        if found is None:
+            return None
+        return self.problem(
+            found.code, found.message, found.at, found.label, help=self.remedy(found)
         )
+
+    def remedy(self, found: Odd) -> str | Remedy:
+        """What an odd word says is to be done, with the change where it is one."""
+        if found.change is None:
+            return found.help
+        start, end, text = found.change
+        edit = Edit(f"write `{text}`", ((Span(self.source, start, end), text),))
+        return Remedy(found.help, (edit,))
 
     def tell(self, problem: SyntaxProblem) -> None:
         """Report a problem that was caught."""
@@ -129,7 +146,7 @@ class Cursor:
 
     # ----------------------------------------------------------------- taking
 
-    def take(self, word: str, wanted: str, help: str) -> int:
+    def take(self, word: str, wanted: str, help: str | Remedy) -> int:
         """Take exactly this word on the same line; its number."""
         at = self.i
         if self.words[at] != word or (self.fresh[at] and not self.brackets):
@@ -170,9 +187,14 @@ class Cursor:
         from bondgraph.frontend.odd import odd_name
 
         found = odd_name(word)
+        # the name is changed wherever it stands
+        places = [i for i, other in enumerate(self.words) if other == word]
+        changes = tuple((self.word_span(i), found.change[2]) for i in places if found.change)
+        edits = (Edit(f"write `{changes[0][1]}`", changes),) if changes else ()
         self.complain(
-            found.code, found.message, Label(self.word_span(at), found.label), help=found.help
-        )
+            found.code, found.message, Label(self.word_span(at), found.label),
+            help=Remedy(found.help, edits),
+        )  # fmt: skip
 
     def keyword(self, word: str) -> bool:
         """Take `word` if it is the next word of this line."""
@@ -194,10 +216,26 @@ class Cursor:
                 "a complete statement.",
                 Label(self.word_span(self.i), "this brace"),
                 Label(Span(self.source, end, end), "belongs here"),
-                help="Write `{` at the end of the line that it belongs to.",
+                help=Remedy(
+                    "Write `{` at the end of the line that it belongs to.",
+                    (self.moved_up(end),),
+                ),
             )
             self.fresh[self.i] = False  # said once
         return True
+
+    def moved_up(self, end: int) -> Edit:
+        """The brace at the cursor moved to the word above it, which ends at `end`."""
+        brace = self.word_span(self.i)
+        text = self.source.text
+        line = text.rfind("\n", 0, brace.start)
+        alone = text[line + 1 : brace.start].isspace() or line + 1 == brace.start
+        behind = text[brace.end : brace.end + 1] in ("\n", "")
+        start = line if alone and behind else brace.start
+        if start == end:
+            return Edit("move it up", ((Span(self.source, start, brace.end), " {"),))
+        above = Span(self.source, end, end)
+        return Edit("move it up", ((above, " {"), (Span(self.source, start, brace.end), "")))
 
     # --------------------------------------------------------------- recovery
 
@@ -230,7 +268,7 @@ class Cursor:
                     break
                 if fresh[at] and at > begin and word != "{":
                     goes_on = open_brackets > 0 and not self.looks_fresh(at)
-                    if not goes_on and not _continues(words[at - 1]):
+                    if not goes_on and not continues(words[at - 1]):
                         break
                     if self.begins_statement(at):
                         break
@@ -264,6 +302,6 @@ class Cursor:
 _CONTINUES = frozenset(["+", "-", "*", "/", "^", ",", "=", "(", "[", "<", ">", "<=", ">=", "=="])
 
 
-def _continues(word: str) -> bool:
+def continues(word: str) -> bool:
     """Whether a statement goes on in the next line after this word."""
     return word in _CONTINUES or word in ("!=", "and", "or", "not", "+-", "±") or is_arrow(word)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from bondgraph.frontend.expression_parser import Expressions
 from bondgraph.ir import syntax
+from bondgraph.text.diagnostic import Edit, Remedy, replacing
+from bondgraph.text.source import Span
 
 NAME_HELP = "A name begins with a letter and has letters, digits and `_`."
 
@@ -48,15 +50,28 @@ class Declarations(Expressions):
         self._colon(help)
         unit = self.unit()
         if self.words[self.i] == "=" and not self.fresh[self.i]:
+            help = (
+                f"A value carries its own unit: `{keyword} {name.name} = 3 {unit}`. "
+                f"`: {unit}` alone declares one that is given where the submodel is used."
+            )
             raise self.problem(
                 "param-unit-and-value",
                 f"`{name.name}` has a unit after `:` and a value too.",
                 self.i,
                 "the value",
-                help=f"A value carries its own unit: `{keyword} {name.name} = 3 {unit}`. "
-                f"`: {unit}` alone declares one that is given where the submodel is used.",
+                help=Remedy(help, self._with_unit(name, unit)),
             )
         return syntax.Param(keyword, name, unit, None, None, doc, self.span(at))
+
+    def _with_unit(self, name: syntax.Part, unit: str) -> tuple[Edit, ...]:
+        """The value of `param R : Ohm = 3` with the unit behind it, where it is a plain number."""
+        at = self.i + 1
+        number = self.words[at]
+        bare = number[:1].isdigit() and (self.fresh[at + 1] or self.words[at + 1] in ("+-", ";"))
+        if not bare:
+            return ()
+        place = Span(self.source, name.origin.end, self.starts[at] + len(number))
+        return replacing(place, f" = {number} {unit}").edits
 
     def _let(self) -> syntax.Let:
         at, doc = self._begun()

@@ -9,13 +9,14 @@ from typing import Final
 from bondgraph.frontend.cursor import Cursor, SyntaxProblem
 from bondgraph.frontend.words import NOT_UNITS, RESERVED, say
 from bondgraph.ir import syntax
-from bondgraph.text.diagnostic import Label
+from bondgraph.text.diagnostic import Label, replacing
 from bondgraph.text.limits import BRACKETS, DIGITS, OPERATORS
 from bondgraph.text.source import Span
 
 _POWER: Final = r"(?:\^-?[0-9]++(?:\.[0-9]++)?+(?!\w))?+"
 _FACTOR: Final = rf"(?:(?:°|[^\W\d])\w*+|1(?![\w]|\.[0-9])){_POWER}"
-_UNIT: Final = re.compile(rf"{_FACTOR}(?:[./]{_FACTOR})*+")
+#: A unit as it stands in a text.
+UNIT: Final = re.compile(rf"{_FACTOR}(?:[./]{_FACTOR})*+")
 
 _LEVEL: Final = {
     "or": 1, "and": 2, "<": 4, "<=": 4, ">": 4, ">=": 4, "==": 4, "!=": 4, "<-": 4,
@@ -218,7 +219,7 @@ class Expressions(Cursor):
                     Label(self.word_span(opening), "opened here"),
                     Label(self.word_span(at), f"{wanted} expected before this"),
                 ),
-                f"Close it with `{bracket}`.",
+                replacing(self.end_of(at - 1), bracket, f"Close it with `{bracket}`."),
                 at,
             )
         here = say(self.words[at])
@@ -312,7 +313,7 @@ class Expressions(Cursor):
     def _unit(self) -> str | None:
         """The unit that begins at the cursor, without spaces in it; None if there is none."""
         first = self.i
-        found = _UNIT.match(self.source.text, self.starts[first])
+        found = UNIT.match(self.source.text, self.starts[first])
         if found is None:
             return None
         end = found.end()

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bondgraph.frontend.cursor import Cursor, SyntaxProblem
 from bondgraph.frontend.declarations import NAME_HELP, Declarations
-from bondgraph.frontend.words import is_arrow
+from bondgraph.frontend.words import is_arrow, say
 from bondgraph.ir import syntax
-from bondgraph.text.diagnostic import Label
+from bondgraph.text.diagnostic import Label, Remedy, replacing
 
 _NODE_HELP = "Write a node: `R:name` declares one, `name` means one declared elsewhere."
 
@@ -113,8 +113,27 @@ class Nodes(Declarations):
             value = self.node_value()
             tolerance = self.tolerance()
         if not plain and self.at_open():
+            if is_arrow(self.words[self.i + 1]):
+                raise self._bonds_at_element(at, name)
             law = self._law()
         return syntax.Node(word, name, arguments, value, tolerance, law, self.span(at))
+
+    def _bonds_at_element(self, at: int, name: syntax.Part) -> SyntaxProblem:
+        """`R:j { <- Se:U }` opens an element as if it were a junction."""
+        type = self.word_span(at)
+        edits = [replacing(type, kind).edits[0] for kind in ("1", "0")]
+        shown = say(f"{self.words[at]}:{name.name}")
+        return SyntaxProblem(
+            "not-a-junction",
+            f"{shown} is no junction: its braces hold its law, and no bonds.",
+            (Label(self.word_span(self.i + 1), "a bond"), Label(type, "neither `0` nor `1`")),
+            Remedy(
+                f"Bonds stand in the braces of a junction: `1:{name.name} {{ ... }}` where they "
+                f"share the flow, `0:{name.name} {{ ... }}` where they share the effort.",
+                tuple(edits),
+            ),
+            self.i,
+        )
 
     def _plain_junction(self, plain: bool) -> None:
         if plain:

@@ -11,13 +11,17 @@ from bondgraph.text.tuples import NamedTuple
 
 
 class Odd(NamedTuple):
-    """What is wrong with the word number `at`, and the remedy."""
+    """What is wrong with the word number `at`, and the remedy.
+
+    `change` is the remedy as a change of the text: from a place to a place, and what to write.
+    """
 
     code: str
     message: str
     at: int
     label: str
     help: str
+    change: tuple[int, int, str] | None = None
 
 
 #: What to write instead of a character, or of two, that the language does not have.
@@ -30,7 +34,7 @@ _INSTEAD: Final = {
     "\u200b": "nothing: it is an invisible space", "\u2009": "a plain space",
     "\u202f": "a plain space", "//": "`#` for a comment", "/*": "`#` for a comment",
     "=>": "`->` for a bond, `>=` for a comparison", "-->": "`->`", "<--": "`<-`",
-    "\x0c": "a line end",
+    "\x0c": "a line end", "+/-": "`+-`", "+/−": "`+-`",
 }  # fmt: skip
 _PLAIN: Final = frozenset('+-*/^<>=(){}[],;:.%"±')
 _GREEK: Final = dict(
@@ -64,6 +68,7 @@ def _odd_number(text: str, words: list[str], starts: list[int], at: int) -> Odd 
         return Odd(
             "number-form", f"A number begins with a digit: I found `.{digits}`.", at,
             "a digit is missing before this point", f"Write `0.{digits}`.",
+            (starts[at], starts[at] + 1, "0."),
         )  # fmt: skip
     if not before[:1].isdigit():
         return None
@@ -72,17 +77,20 @@ def _odd_number(text: str, words: list[str], starts: list[int], at: int) -> Odd 
         return Odd(
             "number-form", f"A number ends with a digit: I found `{before}.`.", at,
             "a digit is missing after this point", f"Write `{before}` or `{before}.0`.",
+            (starts[at], starts[at] + 1, ".0"),
         )  # fmt: skip
     if (word[0].isalpha() or word[0] == "°") and gap != " " and "\n" not in gap:
         if word in NOT_UNITS:
             what = f"A space is missing in {say(before + word)}."
             help = f"Write `{before} {word}`."
-            return None if gap else Odd("unit-space", what, at, "before this word", help)
+            change = (starts[at - 1], starts[at] + len(word), f"{before} {word}")
+            return None if gap else Odd("unit-space", what, at, "before this word", help, change)
         return Odd(
             "unit-space",
             f"A unit follows its number after exactly one space: I found {say(before + gap + word)}"
             ".", at, "is this the unit?",
             f"Write `{before} {word}` for a unit, `{before}*{word}` for a product.",
+            (starts[at - 1], starts[at] + len(word), f"{before} {word}"),
         )  # fmt: skip
     return None
 
@@ -90,12 +98,14 @@ def _odd_number(text: str, words: list[str], starts: list[int], at: int) -> Odd 
 def _odd_sign(text: str, words: list[str], starts: list[int], at: int) -> Odd | None:
     word, start = words[at], starts[at]
     if word[0].isalpha() and not word.isidentifier():
-        return odd_name(word)._replace(at=at)
+        name = odd_name(word)
+        change = name.change and (start, start + len(word), name.change[2])
+        return name._replace(at=at, change=change)
     for there in (start, start - 1):
         for length in (3, 2):
             found = text[there : there + length]
             if there >= 0 and there + length > start and found in _INSTEAD:
-                return _character(found, at)
+                return _character(found, at, there)
     if word == "+-":
         return Odd(
             "tolerance-misplaced",
@@ -105,18 +115,23 @@ def _odd_sign(text: str, words: list[str], starts: list[int], at: int) -> Odd | 
         )  # fmt: skip
     if len(word) > 1 or word.isalnum() or word in _PLAIN or word == "_":
         return None
-    return _character(word, at)
+    return _character(word, at, start)
 
 
-def _character(found: str, at: int) -> Odd:
+def _character(found: str, at: int, start: int) -> Odd:
     shown = say(found) if found.isprintable() and found.strip() else f"U+{ord(found[0]):04X}"
     instead = _INSTEAD.get(found)
+    plain = re.match("`([^`]+)`", instead or "")
+    new = plain[1] if plain else {"a plain space": " ", "a line end": "\n"}.get(instead or "", "")
+    if instead is not None and instead.startswith("a plain minus"):
+        new = "-"
     return Odd(
         "syntax-character",
         f"The language has no {shown}.",
         at,
         "here",
         f"Write {instead}." if instead else "Remove it; in a comment, after `#`, it may stay.",
+        None if found == "'" else (start, start + len(found), new),
     )
 
 
@@ -135,13 +150,14 @@ def odd_name(word: str) -> Odd:
             "name-double-underscore",
             f"The name {say(word)} contains two underscores in a row, which the generated code "
             "uses for the points of a path (`m[1].el` becomes `m__1__el`).", 0, "this name",
-            f"Write `{shorter}`.",
+            f"Write `{shorter}`.", (0, len(word), shorter),
         )  # fmt: skip
     plain = "".join(_GREEK.get(c, c if c.isascii() and c.isalnum() else "_") for c in word)
     plain = re.sub("_+", "_", plain).strip("_") or "x"
+    plain = plain if plain[0].isalpha() else "x" + plain
     return Odd(
         "name-letters",
         f"The name {say(word)} cannot be spelled in the generated code: a name begins with a "
         "letter and has the letters a to z, digits and `_`.", 0, "this name",
-        f"Write, for instance, `{plain if plain[0].isalpha() else 'x' + plain}`.",
+        f"Write, for instance, `{plain}`.", (0, len(word), plain),
     )  # fmt: skip

@@ -9,7 +9,7 @@ from bondgraph.frontend.cursor import SyntaxProblem, TooManyProblems
 from bondgraph.frontend.statements import Statements
 from bondgraph.frontend.words import is_arrow
 from bondgraph.ir import syntax
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Label, Report, removing, replacing
 from bondgraph.text.source import Source, Span
 
 EDITION = 1
@@ -80,7 +80,10 @@ class Parser(Statements):
                 f"The file is written in edition {words[1][:20]} of the language; this compiler "
                 f"knows edition {EDITION}.",
                 Label(self.word_span(1), "this edition"),
-                help=f"Write `bg {EDITION}`, or use a newer version of bondgraph.",
+                help=replacing(
+                    self.word_span(1), str(EDITION),
+                    f"Write `bg {EDITION}`, or use a newer version of bondgraph.",
+                ),
             )
             return None
         from bondgraph.frontend.foreign import not_bondgraph
@@ -93,7 +96,10 @@ class Parser(Statements):
             "missing-edition",
             f"The file does not begin with its edition, `bg {EDITION}`.",
             Label(self.word_span(0), f"`bg {EDITION}` expected before this"),
-            help=f"Write `bg {EDITION}` in the first line.",
+            help=replacing(
+                Span(self.source, 0, 0), f"bg {EDITION}\n",
+                f"Write `bg {EDITION}` in the first line.",
+            ),
         )
         if words[0] == "bg":
             self.skip_statement(0)
@@ -120,7 +126,9 @@ class Parser(Statements):
                         "This brace closes nothing.",
                         at,
                         "no `{` belongs to it",
-                        help="Remove it, or look for a `}` too many above it.",
+                        help=removing(
+                            self.word_span(at), "Remove it, or look for a `}` too many above it."
+                        ),
                     )
                 elif self.fresh[at] and (models or self._like_statement(at)):
                     raise self.problem(
@@ -131,7 +139,9 @@ class Parser(Statements):
                         help="Move it into a model; perhaps a `}` above it is one too many.",
                     )
                 else:
-                    raise self.unexpected("`model` or `import`", _TOP_HELP)
+                    raise self.misspelt(at, ["model", "import"]) or self.unexpected(
+                        "`model` or `import`", _TOP_HELP
+                    )
             except SyntaxProblem as problem:
                 self.tell(problem)
                 self.brackets = self.depth = 0

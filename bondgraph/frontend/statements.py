@@ -6,7 +6,7 @@ from bondgraph.frontend.cursor import SyntaxProblem
 from bondgraph.frontend.node_parser import Nodes
 from bondgraph.frontend.words import KEYWORDS, is_arrow, say
 from bondgraph.ir import syntax
-from bondgraph.text.diagnostic import Label
+from bondgraph.text.diagnostic import Label, replacing
 from bondgraph.text.limits import BRACKETS
 
 #: After one of these a keyword is an ordinary name: `port -> x`, `input { ... }`, `let:x`.
@@ -184,7 +184,9 @@ class Statements(Nodes):
             if not inside and is_arrow(words[self.i]):
                 raise self._no_start(self.i)
             if not self.fresh[self.i] and words[self.i] not in (";", "}"):
-                raise self.unexpected("an arrow or `{`", _alone(words[at]))
+                raise self.misspelt(at, sorted(KEYWORDS)) or self.unexpected(
+                    "an arrow or `{`", _alone(words[at])
+                )
             raise self.problem(
                 "name-alone",
                 f"{say(words[at])} alone says nothing.",
@@ -247,6 +249,20 @@ class Statements(Nodes):
             help="Declare the array with its braces in a statement of its own, "
             f"`{node.type}:{node.name.name}[...] {{ ... }}`, and bond it by its name.",
         )
+
+    def misspelt(self, at: int, keywords: list[str]) -> SyntaxProblem | None:
+        """A complaint about a word before a name that is nearly a keyword: `parm R = 2`."""
+        word = self.words[at]
+        if not word.isidentifier() or not self.words[at + 1].isidentifier():
+            return None
+        from difflib import get_close_matches  # only for a message
+
+        close = get_close_matches(word.lower(), keywords, 1, 0.6)
+        if not close:
+            return None
+        help = replacing(self.word_span(at), close[0])
+        what = f"There is no statement that begins with {say(word)}."
+        return self.problem("unknown-statement", what, at, "not a keyword", help=help)
 
     def _no_start(self, at: int) -> SyntaxProblem:
         return self.problem(

@@ -9,13 +9,13 @@ The arguments of a node are always older than the node: ascending `id` is a topo
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from enum import Enum
 from fractions import Fraction
 from operator import attrgetter
-from typing import ClassVar, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 from bondgraph.ir.functions import FUNCTIONS, SIGNED_SQUARE
 from bondgraph.ir.tables import Rows, backwards, is_map, opened
+from bondgraph.text.enumeration import Enum
 from bondgraph.text.tuples import NamedTuple
 
 Rational: TypeAlias = int | Fraction
@@ -23,8 +23,6 @@ Rational: TypeAlias = int | Fraction
 
 class Op(Enum):
     """What a node does with its arguments."""
-
-    __hash__ = object.__hash__  # members are single objects; Enum's own hash is slow Python
 
     NUM = "num"  # data: Fraction
     SYM = "sym"  # data: Symbol
@@ -45,8 +43,6 @@ CONDITIONS = frozenset({Op.CMP, Op.LOGIC})  # true or false
 
 class Kind(Enum):
     """What a symbol stands for."""
-
-    __hash__ = object.__hash__
 
     PARAM = "param"  # physics that may fail
     CONST = "const"  # cannot fail
@@ -105,33 +101,35 @@ class Expr:
         self.data = data
         self.id = id
 
-    @property
-    def symbol(self) -> Symbol:
-        """The symbol of a SYM node, or the initial value of an INT node."""
-        assert isinstance(self.data, Symbol)
-        return self.data
+    if TYPE_CHECKING:  # names of `data`, see below
 
-    @property
-    def number(self) -> Fraction:
-        """The value of a NUM node."""
-        assert isinstance(self.data, Fraction)
-        return self.data
+        @property
+        def symbol(self) -> Symbol:
+            """The symbol of a SYM node, or the initial value of an INT node."""
 
-    @property
-    def coefficients(self) -> tuple[Fraction, ...]:
-        """The rational coefficients of an ADD node.
+        @property
+        def number(self) -> Fraction:
+            """The value of a NUM node."""
 
-        Whole ones are stored as ints, which add up faster and have the interface of a
-        Fraction but for division: write `Fraction(1) / c`.
-        """
-        assert isinstance(self.data, tuple)
-        return self.data
+        @property
+        def coefficients(self) -> tuple[Fraction, ...]:
+            """The rational coefficients of an ADD node.
 
-    @property
-    def exponents(self) -> tuple[int, ...]:
-        """The integer exponents of a MUL node."""
-        assert isinstance(self.data, tuple)
-        return self.data
+            Whole ones are stored as ints, which add up faster and have the interface of a
+            Fraction but for division: write `Fraction(1) / c`.
+            """
+
+        @property
+        def exponents(self) -> tuple[int, ...]:
+            """The integer exponents of a MUL node."""
+
+        @property
+        def root(self) -> Root:
+            """What a ROOT node solves."""
+
+        @property
+        def name(self) -> str:
+            """The function of an FN node, the operator of a CMP or LOGIC node."""
 
     @property
     def terms(self) -> Iterable[tuple[Fraction, Expr]]:
@@ -164,23 +162,15 @@ class Expr:
         """What a SYM node stands for; None for any other node."""
         return self.symbol.kind if self.op is Op.SYM else None
 
-    @property
-    def root(self) -> Root:
-        """What a ROOT node solves."""
-        assert isinstance(self.data, Root)
-        return self.data
-
-    @property
-    def name(self) -> str:
-        """The function of an FN node, the operator of a CMP or LOGIC node."""
-        assert isinstance(self.data, str)
-        return self.data
-
     #: How a node is written for a person: `bondgraph.notation.line` says so once it is there.
     written: ClassVar[Callable[[Expr], str]] = lambda node: f"<node {node.id}: {node.op.value}>"
 
     def __repr__(self) -> str:
         return type(self).written(self)
+
+
+for _name in ("symbol", "number", "coefficients", "exponents", "root", "name"):
+    setattr(Expr, _name, vars(Expr)["data"])
 
 
 def whole(value: Rational) -> Rational:

@@ -51,7 +51,8 @@ class Function(NamedTuple):
     of x. `zero` is f(0). `odd` is the g of f(x) = sign(x) g(|x|), a name or the power to raise to.
     `unit` is the power of its argument's unit that the value has, None for functions of pure
     numbers. A function `bends`, or jumps, where its argument is zero, or its arguments are equal.
-    `spoken` is what mathematicians call it, and what a model may call it as well.
+    `spoken` is what mathematicians call it, and what a model may call it as well. `parity` is what
+    f(-x) is times f(x), 0 where it is neither.
     """
 
     slopes: tuple[Slope, ...]
@@ -65,6 +66,7 @@ class Function(NamedTuple):
     odd: str | int | None = None
     bends: bool = False
     spoken: str | None = None
+    parity: int = 0
 
     @property
     def grows(self) -> bool:
@@ -94,11 +96,11 @@ def _lowered(p: Any, x: Any, y: Any) -> Any:
 FUNCTIONS: dict[str, Function] = {
     "abs": Function(
         (lambda p, f, x: p.fn("sign", x),), Fraction(1), values=POSITIVE, rates=_ENDS,
-        integral=(Fraction(1, 2), "ssq"), zero=0, bends=True,
+        integral=(Fraction(1, 2), "ssq"), zero=0, bends=True, parity=1,
     ),
     "sign": Function(
         (lambda p, f, x: p.zero,), Fraction(0), values=_ENDS,
-        rates=Interval(0.0, open_low=False), zero=0, bends=True, spoken="sgn",
+        rates=Interval(0.0, open_low=False), zero=0, bends=True, spoken="sgn", parity=-1,
     ),
     "sqrt": Function(
         (lambda p, f, x: p.scale(Fraction(1, 2), p.power(f, -1)),), Fraction(1, 2), _FROM_ZERO,
@@ -106,15 +108,15 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "cbrt": Function(
         (lambda p, f, x: p.scale(Fraction(1, 3), p.power(f, -2)),), Fraction(1, 3),
-        rates=POSITIVE, inverse=3, zero=0,
+        rates=POSITIVE, inverse=3, zero=0, parity=-1,
     ),
     "ssqrt": Function(
         (lambda p, f, x: p.scale(Fraction(1, 2), p.power(p.fn("abs", f), -1)),), Fraction(1, 2),
-        rates=POSITIVE, inverse="ssq", zero=0, odd="sqrt",
+        rates=POSITIVE, inverse="ssq", zero=0, odd="sqrt", parity=-1,
     ),
     "ssq": Function(
         (lambda p, f, x: p.scale(2, p.fn("abs", x)),), Fraction(2),
-        rates=POSITIVE, inverse="ssqrt", zero=0, odd=2,
+        rates=POSITIVE, inverse="ssqrt", zero=0, odd=2, parity=-1,
     ),
     "exp": Function(
         (lambda p, f, x: f,), values=POSITIVE, rates=POSITIVE, inverse="log",
@@ -126,17 +128,17 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "sin": Function(
         (lambda p, f, x: p.fn("cos", x),), values=_BETWEEN, rates=_BETWEEN,
-        integral=(Fraction(-1), "cos"), zero=0,
+        integral=(Fraction(-1), "cos"), zero=0, parity=-1,
     ),
     "cos": Function(
         (lambda p, f, x: p.neg(p.fn("sin", x)),), values=_BETWEEN, rates=_BETWEEN,
-        integral=(Fraction(1), "sin"), zero=1,
+        integral=(Fraction(1), "sin"), zero=1, parity=1,
     ),
-    "tan": Function((lambda p, f, x: p.add((1, p.one), (1, p.power(f, 2))),), zero=0),
+    "tan": Function((lambda p, f, x: p.add((1, p.one), (1, p.power(f, 2))),), zero=0, parity=-1),
     "asin": Function(
         (lambda p, f, x: _over_root(p, p.sub(p.one, p.power(x, 2))),), domain=_ENDS,
         values=Interval(-pi / 2, pi / 2), rates=_ABOVE_ONE, inverse="sin", zero=0,
-        spoken="arcsin",
+        spoken="arcsin", parity=-1,
     ),
     "acos": Function(
         (lambda p, f, x: p.neg(_over_root(p, p.sub(p.one, p.power(x, 2)))),), domain=_ENDS,
@@ -144,22 +146,24 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "atan": Function(
         (lambda p, f, x: p.power(p.add((1, p.one), (1, p.power(x, 2))), -1),),
-        values=Interval(-pi / 2, pi / 2), rates=_UNIT, inverse="tan", zero=0, spoken="arctan",
+        values=Interval(-pi / 2, pi / 2), rates=_UNIT, inverse="tan", zero=0,
+        spoken="arctan", parity=-1,
     ),
     "sinh": Function(
         (lambda p, f, x: p.fn("cosh", x),), rates=_ABOVE_ONE, inverse="asinh",
-        integral=(Fraction(1), "cosh"), zero=0,
+        integral=(Fraction(1), "cosh"), zero=0, parity=-1,
     ),
     "cosh": Function(
         (lambda p, f, x: p.fn("sinh", x),), values=_ABOVE_ONE, rates=ALL,
-        integral=(Fraction(1), "sinh"), zero=1,
+        integral=(Fraction(1), "sinh"), zero=1, parity=1,
     ),
     "tanh": Function(
         (lambda p, f, x: p.sub(p.one, p.power(f, 2)),), values=_BETWEEN, rates=_UNIT,
-        inverse="atanh", zero=0,
+        inverse="atanh", zero=0, parity=-1,
     ),
     "asinh": Function(
         (lambda p, f, x: p.power(p.fn("cosh", f), -1),), rates=_UNIT, inverse="sinh", zero=0,
+        parity=-1,
     ),
     "acosh": Function(
         (lambda p, f, x: _over_root(p, p.sub(p.power(x, 2), p.one)),),
@@ -167,7 +171,7 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "atanh": Function(
         (lambda p, f, x: p.power(p.sub(p.one, p.power(x, 2)), -1),), domain=_BETWEEN,
-        rates=_ABOVE_ONE, inverse="tanh", zero=0,
+        rates=_ABOVE_ONE, inverse="tanh", zero=0, parity=-1,
     ),
     "min": Function((_choice("<=", 1), _choice("<=", 0)), Fraction(1), bends=True),
     "max": Function((_choice(">=", 1), _choice(">=", 0)), Fraction(1), bends=True),

@@ -280,6 +280,14 @@ class BondGraph(NamedTuple):
         inputs = tuple(i._replace(offset=offsets.get(i.name, i.offset)) for i in self.inputs)
         return self._replace(sensors=sensors, inputs=inputs)
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names that may occur in a residual: of parameters, inputs and sensors."""
+        symbols = [v.symbol for v in self.values]
+        symbols += [i.symbol for i in self.inputs]
+        symbols += [s.symbol for s in self.sensors]
+        return tuple(dict.fromkeys([s.symbol.name for s in symbols]))
+
     def initial_values(self) -> dict[Symbol, Expr]:
         """The declared value of each symbol that an integral starts from."""
         ports = [(p.initial, p.initial_value) for node in self.nodes for p in node.ports]

@@ -31,9 +31,9 @@ class Residual(NamedTuple):
     `closing` is the equation that was left over and became the relation, `steps` the elimination
     steps that it rests on, in order: the causal path from the known signals to the closing
     equation. `differentiated` counts how often the relation was differentiated because an initial
-    value is not declared. `free_of` names the fault that it was made to be free of. `raw` is as in
-    `Closing`; `orders` has the highest derivative of each known signal that the residual holds
-    (-1: only under an integral).
+    value is not declared. `free_of` names the fault that it was made to be free of. `raw`, `loop`
+    and `each` are as in `Closing`; `orders` has the highest derivative of each known signal that
+    the residual holds (-1: only under an integral).
     """
 
     name: str
@@ -44,6 +44,8 @@ class Residual(NamedTuple):
     free_of: str | None
     raw: Expr
     orders: dict[str, int]
+    loop: tuple[Equation, ...] = ()
+    each: tuple[InPosition, ...] = ()
 
 
 class Observer(NamedTuple):
@@ -104,7 +106,9 @@ class Closing(NamedTuple):
     `steps` are what its variables rest on, in the order of the elimination; `differentiated` as
     in `Residual`. `raw` is the same relation before derivatives were moved past parameters: equal
     while these are constant, it shows what a parameter does that moves. `free_of` as in
-    `Residual`.
+    `Residual`. `loop` are the other equations that had all their variables computed, some from
+    torn ones, and that were combined with this one so that these drop out. Where the relation was
+    had in each position of some switches by itself, `each` has what it is there.
     """
 
     equation: Equation
@@ -113,6 +117,15 @@ class Closing(NamedTuple):
     differentiated: int
     raw: Expr
     free_of: str | None = None
+    loop: tuple[Equation, ...] = ()
+    each: tuple[InPosition, ...] = ()
+
+
+class InPosition(NamedTuple):
+    """What a relation is while modes are on or off; its equations are those of that position."""
+
+    setting: tuple[tuple[Expr, bool], ...]
+    closing: Closing
 
 
 class ReducedSystem(NamedTuple):

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from enum import Enum
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any, TypeVar
 
 from bondgraph.ir.expr import ZERO_START, Expr, Op, Symbol
 from bondgraph.ir.past import past_of
+from bondgraph.text.enumeration import Enum
 
 _Node = TypeVar("_Node")
 _Made = TypeVar("_Made")
@@ -17,8 +17,6 @@ _Made = TypeVar("_Made")
 
 class Shape(Enum):
     """What is written around the parts of a formula."""
-
-    __hash__ = object.__hash__  # members are single objects; Enum's own hash is slow Python
 
     NUMBER = "number"  # data: a rational; what is negative is a sum of one term
     NAME = "name"  # data: a name of the model, or of a part that is written elsewhere

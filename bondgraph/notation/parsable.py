@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import keyword
+import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -21,6 +22,14 @@ FUNCTIONS = frozenset(
     "D Int ssqrt Abs sign sqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
     " atan2 delay Min Max Piecewise Eq And Or Not nan".split()
 )
+#: Those of SymPy among them, and its exact quotient of two numbers.
+CALLED = FUNCTIONS - {"D", "Int", "ssqrt", "delay", "nan"} | {"Rational"}
+#: What SymPy has no inverse of: what it is, its slope in Python, and what undoes it.
+UNKNOWN_TO_SYMPY = {
+    "ssq": ("x |x|", "2*sp.Abs(self.args[0])", "ssqrt"),
+    "ssqrt": ("sign(x) sqrt(|x|)", "1/(2*sp.Abs(self))", "ssq"),
+    "cbrt": ("The real root of the third degree", "1/(3*self**2)", ""),
+}
 _RENAMED = {"abs": "Abs", "min": "Min", "max": "Max", "and": "And", "or": "Or", "not": "Not"}
 #: Above this many written nodes, parts that occur more than once get a name.
 LARGE = 400
@@ -82,14 +91,19 @@ def parsable(
     expr: Expr,
     names: Names,
     starts: Mapping[Symbol, Expr] = MappingProxyType({}),
+    functions: dict[str, str] | None = None,
 ) -> Parsable:
     """The expression as text; `starts` gives the value of each symbol of an initial value.
+
+    With `functions` the text is Python that runs: quotients of numbers are exact, and what has an
+    inverse that SymPy does not know is a call, as is a table. The names of these functions are
+    added, by what they are called in an expression.
 
     `D(x, n)` is the n-th time derivative, `Int(x, x0)` the integral of x that starts at x0,
     `ssqrt(x)` is sign(x) sqrt(|x|); all other functions have the names they have in SymPy. Numbers
     are exact rationals. The text of n distinct nodes is linear in n.
     """
-    return _Writer(pool, names).write(Reader({}, starts, declared=True).of(expr))
+    return _Writer(pool, names, functions).write(Reader({}, starts, declared=True).of(expr))
 
 
 class _Writer(Speller):
@@ -97,10 +111,11 @@ class _Writer(Speller):
 
     power = "{}**{}"
 
-    def __init__(self, pool: Pool, names: Names) -> None:
+    def __init__(self, pool: Pool, names: Names, functions: dict[str, str] | None) -> None:
         super().__init__()
         self.pool = pool
         self.names = names
+        self.functions = functions
         self.symbols: dict[str, None] = {}
         self.asked: dict[Formula, str] = {}  # roots and their unknowns, as they are called
 
@@ -132,6 +147,12 @@ class _Writer(Speller):
                 depth[node] = size[node] = 1
         implicit = tuple((self.asked[n], self.spell(n.parts[1]).text, float(n.data)) for n in roots)
         return Parsable(self.spell(root).text, tuple(self.symbols), tuple(defs), implicit)
+
+    def number(self, value: Fraction) -> Spelled:
+        """An exact number."""
+        if self.functions is None or value.denominator == 1:
+            return super().number(value)
+        return Spelled(f"Rational({value.numerator}, {value.denominator})")
 
     def _roots(self, root: Formula) -> list[Formula]:
         """The inner unknowns that have to be solved for, each with a name of its own."""
@@ -179,6 +200,11 @@ class _Writer(Speller):
 
     def _call(self, node: Formula) -> Spelled:
         x, *others = self._texts(node)
+        if self.functions is not None and (
+            node.data in UNKNOWN_TO_SYMPY or node.data.startswith("table:")
+        ):
+            plain = self.functions.setdefault(node.data, self._called(node.data))
+            return Spelled(f"{plain}({', '.join([x, *others])})")
         match node.data:
             case "pow":
                 base, exponent = (self.within(part, ATOM).text for part in node.parts)
@@ -193,6 +219,14 @@ class _Writer(Speller):
                 return Spelled(f"{_RENAMED.get(name, name)}({', '.join([x, *others])})")
 
     _logic = _call
+
+    def _called(self, name: str) -> str:
+        """The identifier of a table, which may be the name of a file."""
+        if name in UNKNOWN_TO_SYMPY:
+            return name
+        own, marks = name.rstrip("'"), len(name) - len(name.rstrip("'"))
+        plain = re.sub(r"\W+", "_", own.removeprefix("table:")).strip("_")
+        return self.names.add(f"table_{plain}" + "_inverse" * marks)
 
     def _table(self, key: str, x: str, *others: str) -> str:
         """A table as straight pieces; beyond its ends it keeps the last value, or has none."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import assert_never
+from collections.abc import Callable, Iterable, Iterator
+from operator import attrgetter
+from typing import Any, assert_never
 
 from bondgraph.ir.program import (
     Assign,
@@ -27,24 +28,23 @@ from bondgraph.ir.program import (
 )
 from bondgraph.notation.dialect import is_written_out
 
+_OPERANDS: dict[type, Callable[[Any], tuple[Expression | Condition, ...]]] = {
+    Const: lambda value: (),
+    Ref: lambda value: (),
+    Mode: lambda value: (),
+    First: lambda value: (),
+    Sum: lambda value: tuple([term for _, term in value.terms]),
+    Product: lambda value: value.factors + value.divisors,
+    Function: attrgetter("args"),
+    Logic: attrgetter("args"),
+    Choice: attrgetter("condition", "yes", "no"),
+    Compare: attrgetter("left", "right"),
+}
+
 
 def operands(value: Expression | Condition) -> tuple[Expression | Condition, ...]:
     """What a node is directly made of."""
-    match value:
-        case Const() | Ref() | Mode() | First():
-            return ()
-        case Sum():
-            return tuple(term for _, term in value.terms)
-        case Product():
-            return value.factors + value.divisors
-        case Function() | Logic():
-            return value.args
-        case Choice():
-            return (value.condition, value.yes, value.no)
-        case Compare():
-            return (value.left, value.right)
-        case _:
-            assert_never(value)
+    return _OPERANDS[type(value)](value)
 
 
 def nodes(values: Iterable[Expression | Condition]) -> Iterator[Expression | Condition]:
@@ -67,7 +67,7 @@ def references(value: Expression | Condition) -> list[Ref]:
         elif isinstance(node, Mode):
             found.append(Ref("known", node.name))
         elif isinstance(node, tuple):  # of operands, or a node: both hold them from left to right
-            stack.extend(node[::-1])
+            stack += node[::-1]
     return found
 
 

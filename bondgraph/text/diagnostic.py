@@ -17,14 +17,35 @@ class Label(NamedTuple):
     text: str = ""
 
 
+class Edit(NamedTuple):
+    """A change of the text that mends a finding: each span becomes the text beside it.
+
+    The spans do not overlap. `title` says in a few words what it does, as in "write `param`".
+    """
+
+    title: str
+    changes: tuple[tuple[Span, str], ...]
+
+
+class Remedy(NamedTuple):
+    """What to do about a finding, in words and, where it is a change of the text, as that."""
+
+    text: str
+    edits: tuple[Edit, ...] = ()
+
+
 class Diagnostic(NamedTuple):
-    """A finding about the user's model; `labels[0]` is the primary place."""
+    """A finding about the user's model; `labels[0]` is the primary place.
+
+    `help` says what to do, and `edits` are the changes of the text among what it says.
+    """
 
     code: str
     message: str
     labels: tuple[Label, ...] = ()
     help: str = ""
     severity: Severity = "error"
+    edits: tuple[Edit, ...] = ()
 
 
 class Report:
@@ -42,17 +63,23 @@ class Report:
             self._seen.add(key)
             self.diagnostics.append(diagnostic)
 
-    def error(self, code: str, message: str, *labels: Label | Span, help: str) -> None:
+    def error(
+        self, code: str, message: str, *labels: Label | Span, help: str | Remedy
+    ) -> None:
         """Something wrong that stops the compilation after this stage."""
-        self.add(Diagnostic(code, message, _labels(labels), help, "error"))
+        self.add(Diagnostic(code, message, _labels(labels), *_said(help, "error")))
 
-    def warning(self, code: str, message: str, *labels: Label | Span, help: str) -> None:
+    def warning(
+        self, code: str, message: str, *labels: Label | Span, help: str | Remedy
+    ) -> None:
         """Something that is probably not what the author meant."""
-        self.add(Diagnostic(code, message, _labels(labels), help, "warning"))
+        self.add(Diagnostic(code, message, _labels(labels), *_said(help, "warning")))
 
-    def info(self, code: str, message: str, *labels: Label | Span, help: str = "") -> None:
+    def info(
+        self, code: str, message: str, *labels: Label | Span, help: str | Remedy = ""
+    ) -> None:
         """Something worth knowing that needs no action."""
-        self.add(Diagnostic(code, message, _labels(labels), help, "info"))
+        self.add(Diagnostic(code, message, _labels(labels), *_said(help, "info")))
 
     @property
     def failed(self) -> bool:
@@ -87,3 +114,26 @@ class CompileError(Exception):
 
 def _labels(places: tuple[Label | Span, ...]) -> tuple[Label, ...]:
     return tuple(p if isinstance(p, Label) else Label(p) for p in places)
+
+
+def _said(
+    help: str | Remedy, severity: Severity
+) -> tuple[str, Severity, tuple[Edit, ...]]:
+    """The last fields of a diagnostic."""
+    return (help, severity, ()) if isinstance(help, str) else (help.text, severity, help.edits)
+
+
+def replacing(span: Span, text: str, words: str = "") -> Remedy:
+    """To write something else at a place; `words` say so where "Did you mean ...?" does not.
+
+    >>> from bondgraph.text.source import Source
+    >>> replacing(Span(Source("a.bg", "parm"), 0, 4), "param").text
+    'Did you mean `param`?'
+    """
+    edit = Edit(f"write `{text.strip()}`", ((span, text),))
+    return Remedy(words or f"Did you mean `{text}`?", (edit,))
+
+
+def removing(span: Span, words: str) -> Remedy:
+    """To leave out what stands at a place."""
+    return Remedy(words, (Edit("leave it out", ((span, ""),)),))

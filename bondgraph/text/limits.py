@@ -41,3 +41,8 @@ WISH_BYTES = 4096
 WISHES_A_SECOND = 10  #: of one page; more wait there
 WISHES = 64  #: of all pages that may wait
 INJECTED = 30  #: faults of the virtual machine at once
+
+# The workbench
+EDIT_BYTES = 1_000_000  #: of a text that a page edits
+EDITORS = 8  #: pages at once, each with a process of its own
+KEYS_A_SECOND = 40  #: messages of one page; more wait there

@@ -42,26 +42,34 @@ def render(diagnostics: Iterable[Diagnostic], color: bool) -> str:
 
 
 def as_json(diagnostics: Iterable[Diagnostic]) -> list[dict[str, object]]:
-    """Diagnostics as plain data: {code, severity, message, labels, help}.
+    """Diagnostics as plain data: {code, severity, message, labels, help, edits}.
 
     A label is {path, line, column, end_line, end_column, text}. Lines and columns count from 1,
     columns in characters; the end is the place behind the last character. The first label is the
-    primary place.
+    primary place. An edit is {title, changes}, a change a place with the text to put there.
     """
     return [
         {
             "code": d.code,
             "severity": d.severity,
             "message": d.message,
-            "labels": [_place(label) for label in d.labels],
+            "labels": [{**place(label.span), "text": label.text} for label in d.labels],
             "help": d.help,
+            "edits": [
+                {
+                    "title": edit.title,
+                    "changes": [{**place(span), "text": text} for span, text in edit.changes],
+                }
+                for edit in d.edits
+            ],
         }
         for d in diagnostics
     ]
 
 
-def _place(label: Label) -> dict[str, object]:
-    source, start, end = _clamped(label.span)
+def place(span: Span) -> dict[str, object]:
+    """Where a span is, as plain data: path, line, column, end_line, end_column."""
+    source, start, end = _clamped(span)
     line, column = source.position(start)
     end_line, end_column = source.position(end)
     return {
@@ -70,7 +78,6 @@ def _place(label: Label) -> dict[str, object]:
         "column": column,
         "end_line": end_line,
         "end_column": end_column,
-        "text": label.text,
     }
 
 

@@ -23,6 +23,11 @@ class Source:
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of `offset`, both counted from 1."""
+        starts = self._line_starts()
+        line = bisect_right(starts, offset)
+        return line, offset - starts[line - 1] + 1
+
+    def _line_starts(self) -> list[int]:
         if self._starts is None:
             starts = [0]
             find = self.text.find
@@ -31,14 +36,20 @@ class Source:
                 starts.append(at + 1)
                 at = find("\n", at + 1)
             self._starts = starts
-        line = bisect_right(self._starts, offset)
-        return line, offset - self._starts[line - 1] + 1
+        return self._starts
+
+    @property
+    def lines(self) -> int:
+        """How many lines there are; behind the last line end stands one more, perhaps empty."""
+        return len(self._line_starts())
+
+    def start(self, number: int) -> int:
+        """The offset of the first character of line `number` (from 1)."""
+        return self._line_starts()[number - 1]
 
     def line(self, number: int) -> str:
         """The text of line `number` (from 1), without its end of line."""
-        self.position(0)
-        assert self._starts is not None
-        start = self._starts[number - 1]
+        start = self.start(number)
         end = self.text.find("\n", start)
         return self.text[start:] if end < 0 else self.text[start:end].rstrip("\r")
 

@@ -11,7 +11,7 @@ import pytest
 from bondgraph.cli.main import main
 from bondgraph.text import limits
 from bondgraph.text.foreign_data import WrongData, json_data, toml_data
-from tests.docs.test_docs import ROOT
+from tests.docs.pages import ROOT
 from tests.unit.runtime.live.rover import MODEL, SCENARIO
 
 #: The first words of the row that says each limit.
@@ -31,7 +31,8 @@ ROWS = {
     "LINE_BYTES": "bytes of a line", "PAGES": "pages at once",
     "CONNECTIONS": "connections at once", "WISH_BYTES": "bytes of a wish",
     "WISHES_A_SECOND": "wishes a second", "WISHES": "wishes of all pages",
-    "INJECTED": "faults of the virtual machine",
+    "INJECTED": "faults of the virtual machine", "EDIT_BYTES": "characters of a text that a page",
+    "EDITORS": "pages that edit at once", "KEYS_A_SECOND": "messages a second of one page that",
 }  # fmt: skip
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.test_docs import PAGES, ROOT
+from tests.docs.pages import PAGES, ROOT, named
 from tests.measured import Measured, measured, write
 
 _PAGE = """# Page
@@ -26,7 +26,7 @@ Commit `abc1234`.
 """
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+@pytest.mark.parametrize("page", PAGES, ids=named)
 def test_every_mark_has_a_command_a_commit_and_a_table(page: Path) -> None:
     found = measured(page)
     assert len(found) == page.read_text(encoding="utf-8").count("<!-- measured:")

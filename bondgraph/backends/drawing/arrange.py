@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from bondgraph.backends.drawing.canvas import Box, Canvas, Point, around
 from bondgraph.backends.drawing.layout import Layers, Route, parts
@@ -316,9 +316,31 @@ def _labels(
     frames: list[Frame],
 ) -> dict[int, Point]:
     """Numbers of the figure beside their bonds, where there is room."""
-    bonds = scene.graph.bonds
-    if not any(bond.label for bond in bonds):
+    if not any(scene.bond_names):
         return {}
+    canvas = covered(scene, centre, tags, wires, frames)
+    placed: dict[int, Point] = {}
+    for wire in wires:
+        label = scene.bond_names[wire.bond]
+        if not label:
+            continue
+        spots = _beside(wire, width(label, SMALL))
+        boxes = [around(*at, width(label, SMALL), SMALL) for at in spots]
+        good = [i for i, box in enumerate(boxes) if canvas.room_for_box(box)]
+        best = good[0] if good else 0
+        placed[wire.bond] = spots[best]
+        canvas.box(boxes[best])
+    return placed
+
+
+def covered(
+    scene: Scene,
+    centre: dict[int, Point],
+    tags: dict[int, Point],
+    wires: Iterable[Wire],
+    frames: Iterable[Frame],
+) -> Canvas:
+    """What is on the paper already: labels, names, bonds, and the sides of frames."""
     canvas = Canvas()
     for n, at in centre.items():
         canvas.box(around(*at, scene.items[n].w, scene.items[n].h))
@@ -331,18 +353,7 @@ def _labels(
     for wire in wires:
         for p, q in zip(wire.points, wire.points[1:], strict=False):
             canvas.line(p, q)
-    placed: dict[int, Point] = {}
-    for wire in wires:
-        label = bonds[wire.bond].label
-        if not label:
-            continue
-        spots = _beside(wire, width(label, SMALL))
-        boxes = [around(*at, width(label, SMALL), SMALL) for at in spots]
-        good = [i for i, box in enumerate(boxes) if canvas.room_for_box(box)]
-        best = good[0] if good else 0
-        placed[wire.bond] = spots[best]
-        canvas.box(boxes[best])
-    return placed
+    return canvas
 
 
 def _beside(wire: Wire, w: float) -> list[Point]:

@@ -127,6 +127,11 @@ class Canvas:
                 return False
         return True
 
+    def crossings(self, p: Point, q: Point) -> int:
+        """How many lines the line crosses."""
+        near = {pair for cell in _cells_of_line(p, q) for pair in self._lines.get(cell, ())}
+        return sum(cross(p, q, r, s) for r, s in near)
+
 
 def _cells(box: Box) -> list[tuple[int, int]]:
     return [

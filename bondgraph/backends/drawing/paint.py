@@ -6,7 +6,7 @@ import math
 
 from bondgraph.backends.drawing.arrange import Figure
 from bondgraph.backends.drawing.canvas import Point
-from bondgraph.backends.drawing.scene import Item, Scene
+from bondgraph.backends.drawing.scene import PLAIN, Item, Look, Scene
 from bondgraph.backends.drawing.style import NOTE, SEPARATOR, SMALL, style, width
 from bondgraph.ir.graph import BondGraph, Node
 
@@ -19,7 +19,13 @@ _BAR = 6.5
 
 
 def page(
-    title: str, body: list[str], size: Point, notes: list[str], signs: str, bare: bool = False
+    title: str,
+    body: list[str],
+    size: Point,
+    notes: list[str],
+    signs: str,
+    bare: bool = False,
+    look: Look = PLAIN,
 ) -> str:
     """The SVG around a figure: the title above, below it `notes` and what the signs mean.
 
@@ -27,22 +33,29 @@ def page(
     """
     if bare:
         return _bare(title, body, size, signs)
-    words = _lines(signs, SEPARATOR, SMALL, max(size[0], 460.0))
-    wide = max([size[0], width(title, 14, True), *[width(w, SMALL) for w in words]])
+    words = _lines(signs, SEPARATOR, SMALL, max(size[0], 460.0)) if look.legend else []
+    named = width(title, 14, True) if look.title else 0.0
+    wide = max([size[0], named, *[width(w, SMALL) for w in words]])
     said = [line for note in notes for line in _lines(note, " ", NOTE, max(wide, 460.0))]
     wide = max([wide, *[width(line, NOTE) for line in said]])
-    foot = size[1] + _HEAD + _FOOT + 10
+    head = _HEAD if look.title else _MARGIN - 6
+    foot = size[1] + head + _FOOT + 10
     below = foot + (17 * len(said) + 6 if said else 0)
     total_w = wide + 2 * _MARGIN
     total_h = below - 10 + 14 * len(words) + _MARGIN
+    if not words and not said:
+        total_h = size[1] + head + _MARGIN + 6
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{px(total_w)}" height="{px(total_h)}" '
         f'viewBox="0 0 {px(total_w)} {px(total_h)}" role="img">',
         f"<title>{escape(title)}</title>",
         f"<style>{style(bool(notes))}</style>",
         '<rect class="paper" width="100%" height="100%"/>',
-        f'<text class="start head ink" x="{px(_MARGIN)}" y="24">{escape(title)}</text>',
-        f'<g transform="translate({px(_MARGIN)} {px(_HEAD + 6)})">',
+        *[
+            f'<text class="start head ink" x="{px(_MARGIN)}" y="24">{escape(line)}</text>'
+            for line in [title] if look.title
+        ],
+        f'<g transform="translate({px(_MARGIN)} {px(head + 6)})">',
         *body,
         "</g>",
         *[
@@ -90,20 +103,30 @@ def _lines(text: str, separator: str, size: float, limit: float) -> list[str]:
 def node_label(node: Node, item: Item, at: Point, faint: bool = False, more: str = "") -> str:
     """The label of a node; `faint` takes its colour away, `more` is added to its tooltip."""
     x, y = at
-    told = "\n".join([spoken(node), *[line for line in (node.doc, more) if line]])
+    about = spoken(node) if item.kind else f"the submodel {item.name}"
+    told = "\n".join([about, *[line for line in (item.kind and node.doc, more) if line]])
     hint = f"<title>{escape(told)}</title>"
     ink = "faint" if faint else "ink"
     of = f'data-node="{escape(node.path)}"'
+    if not item.kind:
+        return (
+            f'<rect class="block paper line-{ink}" x="{px(x - item.w / 2)}" '
+            f'y="{px(y - item.h / 2)}" width="{px(item.w)}" height="{px(item.h)}" rx="4"/>'
+            f'<text class="label kind {ink}" {of} x="{px(x)}" y="{px(y + 4.6)}">'
+            f"{hint}{escape(item.name)}</text>"
+        )
     if not item.name:
         return (
             f'<text class="junction {ink}" {of} x="{px(x)}" y="{px(y + 6)}">{hint}{item.kind}'
             "</text>"
         )
+    up = SMALL / 2 + 1 if item.note else 0.0
     text = (
-        f'<text class="label" {of} x="{px(x)}" y="{px(y + 4.6)}">{hint}'
+        f'<text class="label" {of} x="{px(x)}" y="{px(y + 4.6 - up)}">{hint}'
         f'<tspan class="kind {"faint" if faint else item.colour}">{item.kind}</tspan>'
         f'<tspan class="{ink}">:{escape(item.name)}</tspan></text>'
     )
+    text += small(x, y + up + 1.5, item.note) if item.note else ""
     return outline(item, at, f"derived line-{item.colour}") + text if item.derived else text
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from bondgraph.backends.drawing.style import BIG, FONT, HEIGHT, KINDS, width
+from bondgraph.backends.drawing.coefficients import coefficients
+from bondgraph.backends.drawing.style import BIG, FONT, HEIGHT, KINDS, SMALL, width
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.notation.line import show
@@ -11,8 +12,31 @@ from bondgraph.text.tuples import NamedTuple
 Path = tuple[str, ...]
 
 
+class Look(NamedTuple):
+    """What a drawing shows besides the graph.
+
+    `values` are the numbers of the laws, `numbers` those of the bonds, as `explain` cites them.
+    With `boxes` a submodel is one box. Without `title` or `legend` the figure stands alone.
+    """
+
+    values: bool = False
+    numbers: bool = False
+    boxes: bool = False
+    title: bool = True
+    legend: bool = True
+
+
+#: As a drawing is without any wish.
+PLAIN = Look()
+
+
 class Item(NamedTuple):
-    """A node as drawn: `kind` in bold, then `name`; `tag` is the small name of a junction."""
+    """A node as drawn: `kind` in bold, then `name`; `tag` is the small name of a junction.
+
+    `note` is a small line below the name.
+
+    Without a kind it is a box: a submodel of which no inside is shown.
+    """
 
     kind: str
     name: str
@@ -22,6 +46,7 @@ class Item(NamedTuple):
     h: float
     path: Path
     derived: bool
+    note: str = ""
 
 
 class Leaf(NamedTuple):
@@ -35,7 +60,7 @@ class Leaf(NamedTuple):
 class Scene(NamedTuple):
     """Items by node, the skeleton in order, the leaves, and the submodels that get a frame.
 
-    `framed` are the same submodels as a set.
+    `framed` are the same submodels as a set. `bond_names` are the labels of the bonds, "" for none.
     """
 
     graph: BondGraph
@@ -45,6 +70,7 @@ class Scene(NamedTuple):
     leaves: dict[int, tuple[Leaf, ...]]
     frames: tuple[Path, ...]
     framed: frozenset[Path]
+    bond_names: tuple[str, ...]
 
     def frames_of(self, node: int) -> tuple[Path, ...]:
         """The frames around a node, the outermost first."""
@@ -58,32 +84,47 @@ class Scene(NamedTuple):
         return len(one) + len(two) - 2 * shared
 
 
-def scene(causal: CausalGraph, unframed: frozenset[Path]) -> Scene:
+def scene(causal: CausalGraph, unframed: frozenset[Path], look: Look = PLAIN) -> Scene:
     """Sort the nodes of a graph into skeleton and leaves; `unframed` submodels get no frame."""
     graph = causal.graph
     paths = [tuple(node.path.split(".")) for node in graph.nodes]
-    frames = _frames(paths, unframed)
+    frames = () if look.boxes else _frames(paths, unframed)
     framed = frozenset(frames)
     derived = {s.node for s in causal.storages if not s.integral}
     dualised = set(causal.dualised)
+    valued = coefficients(graph) if look.values else {}
+    box = _boxes(paths) if look.boxes else {}
     items = []
     for n, node in enumerate(graph.nodes):
         path = paths[n]
         depth = max([k for k in range(1, len(path)) if path[:k] in framed], default=0)
-        items.append(_item(node, ".".join(path[depth:]), path, n in derived, n in dualised))
-    host = _hosts(graph)
+        item = _item(node, ".".join(path[depth:]), path, n in derived, n in dualised)
+        if n in valued:
+            wide = max(item.w, width(valued[n], SMALL) + 10)
+            item = item._replace(note=valued[n], w=wide, h=item.h + SMALL + 2)
+        items.append(item)
+        if box.get(n) == n:
+            items[n] = Item("", path[0], "", "ink", width(path[0]) + 22, 34.0, path[:1], False)
+    host = {n: box.get(h, h) for n, h in _hosts(graph).items() if n not in box}
     leaves: dict[int, list[Leaf]] = {}
     links = []
     for b, bond in enumerate(graph.bonds):
-        tail, head = bond.tail.node, bond.head.node
+        tail, head = (box.get(n, n) for n in (bond.tail.node, bond.head.node))
         leaf = tail if tail in host else head
         if leaf in host:
             leaves.setdefault(host[leaf], []).append(Leaf(leaf, host[leaf], b))
-        else:
+        elif tail != head or tail not in box:
             links.append((tail, head, b))
-    skeleton = tuple(n for n in range(len(graph.nodes)) if n not in host)
+    skeleton = tuple(n for n in range(len(graph.nodes)) if n not in host and box.get(n, n) == n)
     hanging = {n: tuple(group) for n, group in leaves.items()}
-    return Scene(graph, tuple(items), skeleton, tuple(links), hanging, frames, framed)
+    names = tuple(b.label or (str(b.number) if look.numbers else "") for b in graph.bonds)
+    return Scene(graph, tuple(items), skeleton, tuple(links), hanging, frames, framed, names)
+
+
+def _boxes(paths: list[Path]) -> dict[int, int]:
+    """For each node inside of a submodel the first node of the same one, which stands for it."""
+    first: dict[str, int] = {}
+    return {n: first.setdefault(path[0], n) for n, path in enumerate(paths) if len(path) > 1}
 
 
 def _frames(paths: list[Path], unframed: frozenset[Path]) -> tuple[Path, ...]:

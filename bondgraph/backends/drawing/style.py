@@ -84,6 +84,7 @@ _SHAPES = (
     ".start{text-anchor:start}.head{font-size:14px;font-weight:bold}\n"
     ".bond{fill:none;stroke-width:1.3;stroke-linejoin:round}.stroke{stroke-width:2.2}"
     ".hit{fill:none;stroke:transparent;stroke-width:12}"
+    ".signal{fill:none;stroke-width:1}.block{stroke-width:1}.told{font-size:11px;font-style:italic}"
     ".frame{fill:none;stroke-width:1}.derived{fill:none;stroke-dasharray:3 2}"
 )
 
@@ -118,8 +119,13 @@ def _rules(colours: dict[str, str]) -> str:
     )
 
 
-def legend(preference: Literal["integral", "derivative"], derived: bool, sensors: bool) -> str:
-    """What the signs mean; `derived` and `sensors` say which of the rarer ones occur."""
+def legend(
+    preference: Literal["integral", "derivative"],
+    derived: bool,
+    sensors: bool,
+    signals: bool = False,
+) -> str:
+    """What the signs mean; `derived`, `sensors` and `signals` say which rarer ones occur."""
     signs = [
         f"preferred {preference} causality",
         "half arrow: positive power",
@@ -131,6 +137,8 @@ def legend(preference: Literal["integral", "derivative"], derived: bool, sensors
         signs.append("dashed outline: storage in derivative causality")
     if sensors:
         signs.append("grey arrow: ideal sensor")
+    if signals:
+        signs.append("thin arrow: signal")
     return SEPARATOR.join(signs)
 
 

@@ -16,12 +16,16 @@ class Drawing(NamedTuple):
 
 
 class PathLine(NamedTuple):
-    """One step of a causal path; `leaves`: it runs against the strokes of the drawing."""
+    """One step of a causal path; `leaves`: it runs against the strokes of the drawing.
+
+    `node` is the element or junction whose equation it uses, "" for none.
+    """
 
     html: str
     why: str
     place: str
     leaves: bool
+    node: str
 
 
 class RelationPart(NamedTuple):

@@ -99,19 +99,20 @@ def envelope(time: Array, value: Array, bins: int) -> tuple[Array, Array]:
     if len(time) <= 2 * bins:
         return time, value
     edges = np.linspace(0, len(time), bins + 1).astype(int)
-    at: list[int] = []
-    for a, b in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
-        part = value[a:b]
-        if np.isnan(part).all():
-            at.append(a)
-            continue
-        low, high = int(np.nanargmin(part)), int(np.nanargmax(part))
-        if low == high:
-            high = b - a - 1 if low == 0 and not np.isnan(part[-1]) else high
-        at += sorted({a + low, a + high})
-        if np.isnan(part).any():  # a gap inside of a stretch is shown, too
-            at.append(a + int(np.flatnonzero(np.isnan(part))[0]))
-    order = np.array(sorted(set(at)))
+    first, size = edges[:-1], np.diff(edges)
+    inner = np.arange(size.max())
+    within = inner < size[:, None]
+    part = np.where(within, value[np.minimum(first[:, None] + inner, len(value) - 1)], np.nan)
+    gap = np.isnan(part)
+    low = np.where(gap, np.inf, part).argmin(axis=1)
+    high = np.where(gap, -np.inf, part).argmax(axis=1)
+    flat = (low == high) & (low == 0) & ~gap[np.arange(bins), size - 1]
+    high = np.where(flat, size - 1, high)
+    open_ = (gap & within).any(axis=1)  # a gap inside of a stretch is shown, too
+    hole = (gap & within).argmax(axis=1)
+    some = ~gap.all(axis=1)
+    parts = [(first + low)[some], (first + high)[some], (first + hole)[open_]]
+    order = np.unique(np.concatenate(parts))
     return time[order], value[order]
 
 

@@ -38,9 +38,9 @@ def page(content: Content) -> str:
     holes: dict[str, Any] = {
         "content": content,
         "sections": sections,
-        "style": _markup(_style()),
-        "script": _markup(_text("page.js").rstrip()),
-        "links": _markup(_links(content)),
+        "style": markup(style_sheet()),
+        "script": markup(_text("page.js").rstrip()),
+        "links": markup(_links(content)),
         "names": _names,
         "prose": _prose,
         **graph,
@@ -87,19 +87,19 @@ def _graph(content: Content) -> dict[str, Any]:
     for drawing in content.drawings:
         wide = float(drawing.svg.partition('width="')[2].partition('"')[0])
         svg = drawing.svg.replace("<svg ", f'<svg style="--wide:{wide:g}px" ', 1)
-        drawings.append({**drawing._asdict(), "svg": _markup(svg.rstrip()), "wide": wide > _WIDE})
+        drawings.append({**drawing._asdict(), "svg": markup(svg.rstrip()), "wide": wide > _WIDE})
     relations = [
         {
             **r._asdict(),
-            "html": [_markup(line) for line in r.html],
-            "path": [{**line._asdict(), "html": _markup(line.html)} for line in r.path],
-            "closing_html": _markup(r.closing_html),
-            "orders": [(order, [_markup(s) for s in signals]) for order, signals in r.orders],
+            "html": [markup(line) for line in r.html],
+            "path": [{**line._asdict(), "html": markup(line.html)} for line in r.path],
+            "closing_html": markup(r.closing_html),
+            "orders": [(order, [markup(s) for s in signals]) for order, signals in r.orders],
             "against": any(line.leaves for line in r.path),
         }
         for r in content.relations
     ]
-    quantities = [{**q._asdict(), "html": _markup(q.html)} for q in content.quantities]
+    quantities = [{**q._asdict(), "html": markup(q.html)} for q in content.quantities]
     findings = [
         {**f._asdict(), "places": [_place(span, text) for span, text in f.labels]}
         for f in content.findings
@@ -136,7 +136,7 @@ def _signatures(content: Content) -> dict[str, Any]:
         "marks": {"unsaid": "unsaid" in kinds, "unseen": "unseen" in kinds},
         "said": said,
         "tables": _tables(found) if whole else [],
-        "isolability": _markup(isolability(found)) if found.residuals else "",
+        "isolability": markup(isolability(found)) if found.residuals else "",
         "meanings": _meanings(content),
     }
 
@@ -161,7 +161,7 @@ def _seen(content: Content) -> dict[str, Any]:
         return {}
     by_fault: dict[str, list[dict[str, Any]]] = {}
     for effect in content.seen.effects:
-        row = {**effect._asdict(), "html": _markup(effect.html)}
+        row = {**effect._asdict(), "html": markup(effect.html)}
         by_fault.setdefault(effect.fault, []).append(row)
     return {"seen": content.seen, "by_fault": list(by_fault.items())}
 
@@ -171,14 +171,14 @@ def _episode(episode: Episode, key: str) -> dict[str, Any]:
     from bondgraph.backends.report.plots import plane, signals, strips
 
     planes = [
-        {"title": p.title, "svg": _markup(plane(p, f"{key}-p{k}"))}
+        {"title": p.title, "svg": markup(plane(p, f"{key}-p{k}"))}
         for k, p in enumerate(episode.planes, 1)
     ]
     return {
         **episode._asdict(),
         "planes": planes,
-        "strips": [_markup(figure) for figure in strips(episode, f"{key}-r")],
-        "signals": _markup(signals(episode, f"{key}-s")) if episode.panels else "",
+        "strips": [markup(figure) for figure in strips(episode, f"{key}-r")],
+        "signals": markup(signals(episode, f"{key}-s")) if episode.panels else "",
     }
 
 
@@ -216,7 +216,7 @@ def _groups(content: Content) -> tuple[Group, ...]:
 # ----------------------------------------------------------------------------- the looks
 
 
-def _style() -> str:
+def style_sheet() -> str:
     """The style sheet; dark where that is asked for, on screens only."""
     light, dark = f"{colours(False)};{_LIGHT}", f"{colours(True)};{_DARK}"
     themes = (
@@ -233,7 +233,8 @@ def _text(name: str) -> str:
     return (codegen() / "report" / name).read_text(encoding="utf-8")
 
 
-def _markup(text: str) -> Markup:
+def markup(text: str) -> Markup:
+    """A text that is HTML already."""
     from markupsafe import Markup
 
     return Markup(text)

@@ -39,8 +39,8 @@ _STRIP = 1.05  # inch, of one signal with its name above
 _LEFT, _RIGHT = 0.75, 0.25  # inch, beside a strip
 _BINS = 700  # points of a line, each with its least and its largest
 _MOST = 8  # strips of one figure, so that it fits a page
-_LINES = ("inertia", "resistor", "capacity", "source")
-_STYLES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)))
+LINES = ("inertia", "resistor", "capacity", "source")
+STYLES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)))
 _SAID = {"fault": "resistor", "invalid": "faint", "gap": "faint", "warm-up": "box"}
 _SETTINGS = {
     "svg.fonttype": "none",
@@ -106,7 +106,7 @@ def _plane(found: Plane) -> Figure:
     figure = Figure(figsize=(6.6, 5.0))
     axis = figure.add_axes((0.13, 0.12, 0.66, 0.82))
     for at, curve in enumerate(found.curves):
-        look = {"color": colour(_LINES[at % 4]), "linestyle": _STYLES[at % 4]}
+        look = {"color": colour(LINES[at % 4]), "linestyle": STYLES[at % 4]}
         x, y = _thinned(curve.x, curve.y)
         axis.plot(x, y, linewidth=1.5, **look)
         if len(x):
@@ -116,7 +116,7 @@ def _plane(found: Plane) -> Figure:
     axis.set_ylabel(found.y)
     axis.set_aspect("equal", adjustable="datalim")
     axis.margins(0.08)
-    _plain(axis)
+    plain(axis)
     figure.draw_without_rendering()
     _names_at_ends(axis, found)
     return figure
@@ -143,7 +143,7 @@ def _stack(episode: Episode, count: int, height: float, below: float) -> tuple[F
         axes.append(figure.add_axes(box, sharex=axes[0] if axes else None))
     first, last = (float(episode.time[0]), float(episode.time[-1])) if len(episode.time) else (0, 1)
     for axis in axes:
-        _plain(axis)
+        plain(axis)
         axis.set_xlim(first, last if last > first else first + 1)
         for mark in episode.marks:
             axis.axvline(mark.time, color=colour("ink"), linewidth=0.8, linestyle=(0, (1, 2)))
@@ -199,15 +199,15 @@ def _residual(axis: Axes, time: Array, trace: Trace) -> None:
         for start, end in stretches(*coarse(outside, time, _BINS)):
             axis.plot([start, end], [-1.1 * peak] * 2, color=colour("resistor"), linewidth=3,
                       solid_capstyle="butt")  # fmt: skip
-    _label(axis, trace.name, trace.unit)
+    titled(axis, trace.name, trace.unit)
 
 
 def _panel(axis: Axes, time: Array, panel: Panel) -> None:
     """Signals of one unit, named at the right end of the strip where they are."""
     for at, trace in enumerate(panel.traces):
         t, v = envelope(time, trace.value, _BINS)
-        axis.plot(t, v, color=colour(_LINES[at % 4]), linestyle=_STYLES[at % 4], linewidth=1.2)
-    _label(axis, panel.title, panel.unit)
+        axis.plot(t, v, color=colour(LINES[at % 4]), linestyle=STYLES[at % 4], linewidth=1.2)
+    titled(axis, panel.title, panel.unit)
     axis.margins(y=0.12)
     if len(panel.traces) > 1:
         low, high = axis.get_ylim()
@@ -215,7 +215,7 @@ def _panel(axis: Axes, time: Array, panel: Panel) -> None:
         from matplotlib.lines import Line2D
 
         lines = [
-            Line2D([], [], color=colour(_LINES[k % 4]), linestyle=_STYLES[k % 4], linewidth=1.2)
+            Line2D([], [], color=colour(LINES[k % 4]), linestyle=STYLES[k % 4], linewidth=1.2)
             for k in range(len(panel.traces))
         ]
         axis.legend(
@@ -224,7 +224,7 @@ def _panel(axis: Axes, time: Array, panel: Panel) -> None:
         )  # fmt: skip
 
 
-def _label(axis: Axes, name: str, unit: str) -> None:
+def titled(axis: Axes, name: str, unit: str) -> None:
     """The name of a strip, above it on the left: however long it is, it has room."""
     text = f"{name} in {unit}" if unit and unit != "1" else name
     axis.annotate(text, (0, 1), xycoords="axes fraction", xytext=(0, 3),
@@ -253,7 +253,7 @@ def _verdicts(axis: Axes, episode: Episode, rows: dict[int, int]) -> None:
     most = max(rows.values()) + 1
     axis.set_ylim(most - 0.5, -0.5)
     axis.set_yticks([])
-    _label(axis, "said", "")
+    titled(axis, "said", "")
     for at, row in rows.items():
         verdict = episode.said[at]
         end = last if verdict.end is None else verdict.end
@@ -304,13 +304,13 @@ def _names_at_ends(axis: Axes, found: Plane) -> None:
     room = 1.0 - step * max(len(ends) - 1, 0)
     for rank, (y, at) in enumerate(ends):
         placed = max(min(y, room + step * rank), placed + step)
-        look = {"color": colour(_LINES[at % 4]), "linestyle": _STYLES[at % 4]}
+        look = {"color": colour(LINES[at % 4]), "linestyle": STYLES[at % 4]}
         axis.plot([1.02, 1.09], [placed] * 2, transform=axis.transAxes, clip_on=False,
                   linewidth=1.5, **look)  # fmt: skip
         axis.text(1.105, placed, found.curves[at].name, transform=axis.transAxes, va="center")
 
 
-def _plain(axis: Axes) -> None:
+def plain(axis: Axes) -> None:
     """Axes without a box: two thin lines and outward ticks."""
     for side in ("top", "right"):
         axis.spines[side].set_visible(False)

@@ -90,16 +90,20 @@ def _ordinal(number: int) -> str:
 def _path(
     compilation: Compilation, typesetter: Typesetter, relation: Relation
 ) -> tuple[tuple[PathLine, ...], int]:
-    steps = path(relation.residual, compilation.equations, compilation.derivative)
+    taken = path(relation.residual, compilation.equations, compilation.derivative)
+    nodes = compilation.graph.nodes
+    steps = list(zip(taken, relation.residual.steps, strict=True))
     shown = steps if len(steps) <= _STEPS else steps[: _STEPS // 2] + steps[-_STEPS // 2 :]
     lines = []
-    for step in shown:
+    for step, found in shown:
         if operations(step.expr) <= LONGEST // 2:
             html = typesetter.assigned(step.variable, step.expr)
         else:
             html = typesetter.inline(step.variable)
         where = place(step.origin, compilation.source)
-        lines.append(PathLine(html, step.why, where, step.leaves))
+        at = found.equation.node
+        node = nodes[at].path if at >= 0 else ""
+        lines.append(PathLine(html, step.why, where, step.leaves, node))
     return tuple(lines), len(steps) - len(shown)
 
 

@@ -62,11 +62,19 @@ def simulated(
 
 def played(compilation: Compilation, run: Run) -> Episode:
     """A run with a monitor at the rate of its samples."""
-    scenario = run.scenario
+    rated = at_rate(compilation, run.scenario)
+    return episode(rated, run, watched(rated, run))
+
+
+def at_rate(compilation: Compilation, scenario: Scenario) -> Compilation:
+    """The compilation at the rate of the samples of a scenario."""
     rate = scenario.sampling.rate
-    if rate != compilation.options.rate:
-        compilation = compilation.with_options(rate=rate)
-    seen = _watched(compilation, run) if compilation.residuals else None
+    return compilation if rate == compilation.options.rate else compilation.with_options(rate=rate)
+
+
+def episode(compilation: Compilation, run: Run, seen: Watched | None) -> Episode:
+    """A run, and what the monitor of a compilation at its rate saw of it, for people."""
+    scenario = run.scenario
     time = run.log.time if seen is None else seen.time
     return Episode(
         scenario.name,
@@ -81,8 +89,10 @@ def played(compilation: Compilation, run: Run) -> Episode:
     )
 
 
-def _watched(compilation: Compilation, run: Run) -> Watched | None:
-    """The run through the monitor's clock, engine and decision."""
+def watched(compilation: Compilation, run: Run) -> Watched | None:
+    """The run through the monitor's clock, engine and decision; None without any residual."""
+    if not compilation.residuals:
+        return None
     try:
         engine = compilation.engine()
     except ValueError as error:

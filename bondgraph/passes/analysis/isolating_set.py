@@ -100,7 +100,8 @@ def _in_some_modes(
         expr, raw = _without(graph.fault_symbol(fault), relation, modes, graph.pool)
         if expr is not graph.pool.zero:
             steps = residual.steps, residual.differentiated
-            yield Closing(residual.closing, expr, *steps, raw, fault)
+            way = residual.loop, residual.each
+            yield Closing(residual.closing, expr, *steps, raw, fault, *way)
 
 
 def _without(fault: Expr, relation: list[Expr], modes: list[Expr], pool: Pool) -> list[Expr]:

@@ -50,7 +50,9 @@ def _conflict(
         if bond.tail.node in inside and bond.head.node in inside
     )
     help = f"{what.physics} {_remedies(changes)}"
-    finding = Diagnostic("causality-conflict", sentence(what.message), what.labels, help)
+    edits = tuple([change.edit for change in changes if change.edit is not None])
+    message = sentence(what.message)
+    finding = Diagnostic("causality-conflict", message, what.labels, help, edits=edits)
     return Conflict(
         tuple(nodes),
         bonds,

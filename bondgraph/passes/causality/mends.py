@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from bondgraph.ir.graph import BondGraph, End
+from bondgraph.frontend.statement_end import statement_end
+from bondgraph.ir.graph import BondGraph, End, Node
 from bondgraph.ir.groups import Groups
 from bondgraph.passes.causality.cores import refute
 from bondgraph.passes.causality.explanation import Explanation
 from bondgraph.passes.causality.node_words import name
 from bondgraph.passes.causality.rules import Wish, must, rules
+from bondgraph.text.diagnostic import Edit
+from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
 _PROPOSED = 5
@@ -37,10 +40,11 @@ class Change(NamedTuple):
 
 
 class Mend(NamedTuple):
-    """A change that was tried and mends a conflict, and how to say it."""
+    """A change that was tried and mends a conflict, how to say it, and how to write it if plain."""
 
     change: Change
     text: str
+    edit: Edit | None = None
 
 
 def mends(
@@ -67,7 +71,8 @@ def mends(
             budget -= len(graph.bonds)
             if workshop.suits(change, None):
                 kinds[kind] = kinds.get(kind, 0) + 1
-                found.append(Mend(change, _words(graph, change, workshop.places(change))))
+                words = _words(graph, change, workshop.places(change))
+                found.append(Mend(change, words, _edit(graph, change, words)))
     return found
 
 
@@ -240,8 +245,66 @@ def _words(graph: BondGraph, change: Change, places: int) -> str:
     )
 
 
+def _edit(graph: BondGraph, change: Change, words: str) -> Edit | None:
+    """The change as one of the text, where that is plain: a node turned, an R put in or at."""
+    changes: list[tuple[Span, str] | None] = []
+    if change.splice is not None:
+        number, kind = change.splice
+        bond = graph.bonds[number]
+        names = _link(graph, bond.tail, bond.head)
+        if names is None:
+            return None
+        *_, link, loss = names
+        text = bond.origin.text
+        plain = "->" if text.endswith(">") else "<-"
+        changes.append((bond.origin, f"{text} {kind}:{link} {plain}"))
+        changes.append(_behind(bond.origin, f"; {link} -> R:{loss} = 1"))
+    elif change.grow >= 0:
+        node = graph.nodes[change.grow]
+        model, _, own = node.path.rpartition(".")
+        if "[" in own:
+            return None
+        loss = _free("loss", model, {n.path for n in graph.nodes})
+        changes.append(_behind(node.origin, f"; {own} -> R:{loss} = 1"))
+    elif change.turn >= 0:
+        node = graph.nodes[change.turn]
+        place = _type(node)
+        if place is None:
+            return None
+        prefix = node.keyword.removesuffix(node.kind)
+        changes.append((place, prefix + _OTHER[node.kind]))
+    known = tuple([c for c in changes if c is not None])
+    whole = known and len(known) == len(changes)
+    return Edit(words.split("\n", 1)[0], known) if whole else None
+
+
+def _behind(place: Span, text: str) -> tuple[Span, str] | None:
+    """A text behind the statement in which a place is."""
+    end = statement_end(place.source.text, place.start)
+    return None if end is None else (Span(place.source, end, end), text)
+
+
+def _type(node: Node) -> Span | None:
+    """Where the type of a node is written."""
+    source, start, _ = node.origin
+    size = len(node.keyword)
+    for begin in (start, start - size - 1):  # a node, or the name of a junction with braces
+        if begin >= 0 and source.text[begin : begin + size + 1] == f"{node.keyword}:":
+            return Span(source, begin, begin + size)
+    return None
+
+
 def _spliced(graph: BondGraph, tail: End, head: End, kind: str) -> str:
     """How to write it, where both ends are of one model and have plain names."""
+    names = _link(graph, tail, head)
+    if names is None:
+        return ""
+    a, b, link, loss = names
+    return f"\n    {a} -> {kind}:{link} -> {b}; {link} -> R:{loss} = 1"
+
+
+def _link(graph: BondGraph, tail: End, head: End) -> tuple[str, str, str, str] | None:
+    """Both ends as their model calls them, and two names that it does not have yet."""
     ends = []
     for end in (tail, head):
         node = graph.nodes[end.node]
@@ -250,10 +313,10 @@ def _spliced(graph: BondGraph, tail: End, head: End, kind: str) -> str:
         ends.append((model, f"{own}.{node.ports[end.port].name}" if fields else own))
     (model, a), (other, b) = ends
     if model != other or "[" in a + b:
-        return ""
+        return None
     taken = {node.path for node in graph.nodes}
     link, loss = (_free(word, model, taken) for word in ("link", "loss"))
-    return f"\n    {a} -> {kind}:{link} -> {b}; {link} -> R:{loss} = 1"
+    return a, b, link, loss
 
 
 def _free(word: str, model: str, taken: set[str]) -> str:

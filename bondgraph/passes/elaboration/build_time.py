@@ -122,7 +122,8 @@ def _name(ref: Ref, scope: Scope, env: Env, report: Report) -> Fraction | bool:
         fail(report, "not-structural", f"`{ref.origin.text}` is not known when the model is built.",
              ref.origin, help=_HELP)  # fmt: skip
     fail(report, "unknown-name", f"There is no structural argument or `for` variable "
-         f"`{ref.origin.text}`.", ref.origin, help=meant(part.name, known, _HELP))  # fmt: skip
+         f"`{ref.origin.text}`.", ref.origin,
+         help=meant(part.name, known, _HELP, ref.origin))  # fmt: skip
 
 
 def _number(value: Fraction | bool, expr: Expression, report: Report) -> Fraction:

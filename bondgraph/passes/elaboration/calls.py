@@ -57,7 +57,8 @@ class Calls(Expressions):
         if name not in FUNCTIONS and name not in _OTHERS:
             fail(self.report, "unknown-function", f"There is no function `{call.name}`.",
                  call.origin, help=meant(call.name, names(), "Write a product with `*`; a "
-                 'characteristic may come from a table: `table("file.csv", x)`.'))  # fmt: skip
+                 'characteristic may come from a table: `table("file.csv", x)`.',
+                 call.origin))  # fmt: skip
         low, high = _OTHERS.get(name) or (len(FUNCTIONS[name].slopes),) * 2
         if not low <= len(call.arguments) <= high:
             needs = f"{low}" if low == high else f"{low} to {high}"

@@ -183,7 +183,7 @@ class Wiring:
             f"`{owner}` has no named ports: write `{owner}` alone."
         )  # fmt: skip
         fail(self.report, "unknown-port", f"`{owner}` has no port `{part.name}`.", part.origin,
-             help=meant(part.name, ports, otherwise))  # fmt: skip
+             help=meant(part.name, ports, otherwise, part.origin))  # fmt: skip
 
     def series(self, ref: Ref, last: Part, scope: Scope, link: Link) -> list[Stop]:
         """`cell[1..n]`: the elements of an array one after the other; an empty range is none."""

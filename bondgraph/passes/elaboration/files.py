@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from bondgraph.ir.syntax import (
     Chain,
@@ -102,7 +102,7 @@ class Files:
         own = self.own[_key(source)]
         for name in names:
             if name not in own:
-                help = meant(name, own, f"It declares {listed(sorted(own)) or 'no model'}.")
+                help = meant(name, own, f"It declares {listed(sorted(own)) or 'no model'}.", origin)
                 self.report.error(
                     "unknown-model", f'"{path}" declares no model `{name}`.', origin, help=help
                 )
@@ -134,21 +134,28 @@ def _missing(name: str, origin: Span, source: Source) -> Missing:
     return Missing(Model(name, (), (), "", origin, origin), {}, source)
 
 
-def nodes_of(body: tuple[Statement, ...]) -> Iterator[Node]:
-    """Every node declared in a body, also inside `for`, `if` and junctions."""
+def statements_of(body: tuple[Statement, ...]) -> Iterator[Statement]:
+    """Every statement of a body, those in `for`, `if` and junctions behind each of these."""
     stack = [iter(body)]
     while stack:
         statement = next(stack[-1], None)
         if statement is None:
             stack.pop()
-        elif isinstance(statement, Chain):
-            for item in statement.nodes:
-                if isinstance(item, Node):
-                    yield item
-        elif isinstance(statement, (For, Junction)):
+            continue
+        yield statement
+        if isinstance(statement, (For, Junction)):
             stack.append(iter(statement.body))
         elif isinstance(statement, If):
             stack.append(iter(statement.body + statement.otherwise))
+
+
+def nodes_of(body: tuple[Statement, ...]) -> Iterator[Node]:
+    """Every node declared in a body, also inside `for`, `if` and junctions."""
+    for statement in statements_of(body):
+        if isinstance(statement, Chain):
+            for item in statement.nodes:
+                if isinstance(item, Node):
+                    yield item
 
 
 def pick(
@@ -160,15 +167,16 @@ def pick(
         if name not in known:
             names = [d.model.name for d in own]
             fail(report, "unknown-model", f"The file has no model `{name}`.", _edition(source),
-                 help=meant(name, names, f"It declares {listed(names) or 'none'}."))  # fmt: skip
+                 help=meant(name, names, f"It declares {listed(names) or 'none'}.",
+                        _edition(source)))  # fmt: skip
         return known[name]
     if not own and report.failed:
         raise Skip
     if not own:
         fail(report, "no-model", "The file declares no model.", _edition(source),
              help="Write `model Name { ... }` after the line `bg 1`.")  # fmt: skip
-    used = {n.type for d in own for n in nodes_of(d.model.body) if n.type != d.model.name}
-    free = [d for d in own if d.model.name not in used]
+    tops = unused([d.model for d in own])
+    free = [d for d in own if d.model.name in tops]
     if not free:
         for definition in own:  # all are used by another: somewhere that is a cycle
             recursion(definition, report)
@@ -180,6 +188,13 @@ def pick(
              "which one is meant?", *[d.model.name_origin for d in free[:4]],
              help=f"Name it after the file: `{source.path}:{free[-1].model.name}`.")  # fmt: skip
     return free[0]
+
+
+def unused(models: Iterable[Model]) -> list[str]:
+    """The names of the models that no other one of them uses."""
+    models = list(models)
+    used = {n.type for m in models for n in nodes_of(m.body) if n.type != m.name}
+    return list(dict.fromkeys([m.name for m in models if m.name not in used]))
 
 
 def _edition(source: Source) -> Span:

@@ -42,7 +42,7 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
     ValueKind,
 )
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Label, Remedy, Report
 from bondgraph.text.limits import PARTS, UNROLLED
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
@@ -146,16 +146,25 @@ class Arguments:
             if given.used:
                 continue
             text = given.argument.target.origin.text
+            help: str | Remedy
             if isinstance(entry, Scope):
                 names = [n for n, v in entry.values.items() if _bindable(v)]
                 names += entry.generics
-                help = meant(given.parts[0][0], names, f"It takes {listed(names) or 'none'}.")
+                otherwise = f"It takes {listed(names) or 'none'}."
+                origin = given.argument.target.origin
+                help = meant(given.parts[0][0], names, otherwise, origin)
                 message = f"`{entry.model.name}` takes no argument `{text}`."
             else:
                 state = entry.element.state if entry.element is not None else None
                 help = f"An element of this kind takes `{state}0`, its initial state."
                 message = f"`{entry.type}:{entry.name}` takes no argument `{text}`."
             self.report.error("unknown-argument", message, given.argument.origin, help=help)
+
+
+def _last(origin: Span, word: str) -> Span:
+    """The last place of a word in a stretch of the text."""
+    start = origin.start + max(origin.text.rfind(word), 0)
+    return Span(origin.source, start, start + len(word))
 
 
 def _bindable(value: Named) -> bool:
@@ -271,7 +280,8 @@ class Opener(Arguments):
         if port.domain not in DOMAINS:
             self.report.error(
                 "unknown-domain", f"There is no domain `{port.domain}`.", port.origin,
-                help=meant(port.domain, DOMAINS, f"The domains are {listed(DOMAINS)}."),
+                help=meant(port.domain, DOMAINS, f"The domains are {listed(DOMAINS)}.",
+                           _last(port.origin, port.domain)),
             )  # fmt: skip
         entry = PortEntry(port, scope)
         self.enter(scope.nodes, port.name, None, entry, port.origin)
@@ -350,7 +360,8 @@ class Opener(Arguments):
             names = (*KINDS, *scope.definition.known)
             fail(self.report, "unknown-type", f"There is no element kind or model `{node.type}`.",
                  node.origin, help=meant(node.type, names, "Element kinds are R C I TF GY Se Sf De "
-                 "Df; a model must be declared in this file or imported."))  # fmt: skip
+                 "Df; a model must be declared in this file or imported.",
+                 node.origin))  # fmt: skip
         if isinstance(definition, Missing):
             raise Skip
         return self.instances(definition, node, scope, env)

@@ -20,7 +20,7 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
 )
 from bondgraph.passes.elaboration.values import Values
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Edit, Label, Remedy, Report
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -87,10 +87,17 @@ class Laws:
     def no_relation(self, node: NodeEntry, written: Node) -> None:
         """A transformer must say in which direction its modulus goes."""
         name = node.name
+        end = written.name.origin.end
+        behind = Span(written.origin.source, end, end)
+        laws = [f"{{ f1 = {name}*f2 }}", f"{{ f2 = {name}*f1 }}"]
+        edits = tuple([Edit(f"write `{law}`", ((behind, f" {law}"),)) for law in laws])
+        help = Remedy(
+            "Books differ on what the modulus of a transformer is, so write it: "
+            f"`{written.type}:{name} {laws[0]}` or `{laws[1]}`; port 1 is where a bond enters.",
+            edits,
+        )
         fail(self.report, "missing-relation", f"`{written.type}:{name}` states no relation.",
-             written.origin, help="Books differ on what the modulus of a transformer is, so write "
-             f"it: `{written.type}:{name} {{ f1 = {name}*f2 }}` or `{{ f2 = {name}*f1 }}`; port 1 "
-             "is where a bond enters.")  # fmt: skip
+             written.origin, help=help)  # fmt: skip
 
     # ------------------------------------------------------------------ coefficients
 

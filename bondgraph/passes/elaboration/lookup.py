@@ -18,7 +18,7 @@ from bondgraph.passes.elaboration.scope import (
     Scope,
     ValueEntry,
 )
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Label, Remedy, Report, replacing
 from bondgraph.text.source import Span
 
 #: A number and what looks like the first part of its unit, before a name.
@@ -26,7 +26,7 @@ _UNIT_BEFORE = r"(?<![\w.])([0-9][\w.+-]*) ([^\W\d][\w.^/*\s-]*?[*/])\s*\Z"
 _UNIT_AFTER = r"\w+(?:\^-?[0-9]+)?(?:[*/.][^\W\d]\w*(?:\^-?[0-9]+)?)*"
 
 
-def unit_meant(origin: Span) -> str | None:
+def unit_meant(origin: Span) -> Remedy | None:
     """How a unit that was taken for a product, as in `3 kg*m^2`, has to be spelt."""
     source = origin.source
     column = source.position(origin.start)[1] - 1
@@ -36,9 +36,16 @@ def unit_meant(origin: Span) -> str | None:
     if before is None or after is None:
         return None
     unit = suggest_unit("".join((before[2] + after[0]).split()))
-    return (
-        None if unit is None else (f"A unit contains no `*` and no spaces: `{before[1]} {unit}`.")
-    )
+    if unit is None:
+        return None
+    start = origin.start - len(line[:column]) + before.start()
+    place = Span(source, start, origin.start + after.end())
+    text = f"{before[1]} {unit}"
+    return replacing(place, text, f"A unit contains no `*` and no spaces: `{text}`.")
+
+
+def _indexless(part: Part) -> Remedy:
+    return replacing(part.origin, part.name, f"Write `{part.name}` without an index.")
 
 
 class Lookup:
@@ -80,7 +87,7 @@ class Lookup:
                  f"with its type, as in `R:{part.name}`.")  # fmt: skip
         fail(self.report, "unknown-name", f"`{inside.model.name}` has no node `{part.name}`.",
              part.origin, help=meant(part.name, inside.nodes, "Declare it with its type, as in "
-             f"`1:{part.name}` or `R:{part.name}`."))  # fmt: skip
+             f"`1:{part.name}` or `R:{part.name}`.", part.origin))  # fmt: skip
 
     def indexed(self, part: Part, named: Named, scope: Scope, env: Env) -> Named:
         """The entry itself, or the one of an array that the index of the part names."""
@@ -98,7 +105,7 @@ class Lookup:
         if place is not None:
             fail(self.report, "index-not-allowed", f"`{part.name}` is not an array.",
                  Label(part.origin), Label(named.origin, "declared here"),
-                 help=f"Write `{part.name}` without an index.")  # fmt: skip
+                 help=_indexless(part))  # fmt: skip
         return named
 
     def out_of_range(self, part: Part, array: Array, place: int) -> NoReturn:
@@ -130,7 +137,8 @@ class Lookup:
         unit = unit_meant(ref.origin) if len(ref.parts) == 1 else None
         fail(self.report, "unknown-name", f"`{inside.model.name}` has no value `{part.name}`.",
              part.origin, help=unit or meant(part.name, (*known, *inside.values), "Declare it, "
-             f"as in `param {part.name} = 1` or `let {part.name} = ...`."))  # fmt: skip
+             f"as in `param {part.name} = 1` or `let {part.name} = ...`.",
+             part.origin))  # fmt: skip
 
     @staticmethod
     def signals(node: Named, text: str) -> str:

@@ -104,8 +104,8 @@ class Outside(Calls):
             known = [*self.values, *([TIME] if self.timely else [])]
             extra = ", of time `t` in seconds" if self.timely else ""
             fail(self.report, "unknown-name", f"The model has no parameter `{name}`.", ref.origin,
-                 help=meant(name, known, f"Expressions are made of parameters{extra} and numbers.")
-                 )  # fmt: skip
+                 help=meant(name, known, f"Expressions are made of parameters{extra} and numbers.",
+                            ref.origin))  # fmt: skip
         if value.dimension is None:
             return value.symbol, self.quantities.dimensions.fresh(ref.origin, f"`{name}`")
         return value.symbol, self.quantities.known(value.dimension, ref.origin, f"`{name}`")

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import NoReturn
 
 from bondgraph.text import numerals
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Label, Remedy, Report, replacing
 from bondgraph.text.source import Span
 
 
@@ -20,7 +20,9 @@ class Abort(Exception):
     """Nothing more can be said about this model; the reason has been reported."""
 
 
-def fail(report: Report, code: str, message: str, *places: Label | Span, help: str) -> NoReturn:
+def fail(
+    report: Report, code: str, message: str, *places: Label | Span, help: str | Remedy
+) -> NoReturn:
     """Report an error and give up what is being elaborated."""
     report.error(code, message, *places, help=help)
     raise Skip
@@ -38,10 +40,19 @@ def closest(name: str, known: Iterable[str]) -> str | None:
     return found[0] if found else None
 
 
-def meant(name: str, known: Iterable[str], otherwise: str) -> str:
-    """A remedy: the closest known name, or `otherwise`."""
+def meant(name: str, known: Iterable[str], otherwise: str, origin: Span) -> str | Remedy:
+    """A remedy: the closest known name in the place of this one in `origin`, or `otherwise`."""
     other = closest(name, known)
-    return f"Did you mean `{other}`?" if other else otherwise
+    return written(origin, name, other) if other else otherwise
+
+
+def written(origin: Span, name: str, other: str) -> str | Remedy:
+    """That another name is meant by the one that stands in `origin`."""
+    at = origin.text.find(name)
+    if at < 0:
+        return f"Did you mean `{other}`?"
+    start = origin.start + at
+    return replacing(Span(origin.source, start, start + len(name)), other)
 
 
 def rough(value: Fraction) -> str:

@@ -9,7 +9,7 @@ from bondgraph.ir.unit import NONE, Dimension
 from bondgraph.library.dimensions import Conflict, Dimensions, Term
 from bondgraph.library.units import DOMAINS, describe, parse_unit, suggest_unit
 from bondgraph.passes.elaboration.bonds import FlatBond, FlatEnd
-from bondgraph.passes.elaboration.problems import fail
+from bondgraph.passes.elaboration.problems import fail, written
 from bondgraph.passes.elaboration.scope import PortEntry
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
@@ -175,7 +175,7 @@ class Quantities:
             if unit is None:
                 other = suggest_unit(text)
                 fail(self.report, "unknown-unit", f"`{text}` is no unit.", Label(origin),
-                     help=f"Did you mean `{other}`?" if other else "Units are names joined with "
+                     help=written(origin, text, other) if other else "Units are names joined with "
                      "`.` and `/`, as in `N.m/A` or `m^3/s`.")  # fmt: skip
             found = self._units[text] = (unit.dimension, unit.factor)
         return found

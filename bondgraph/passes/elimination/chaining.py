@@ -59,6 +59,31 @@ class _Offer(NamedTuple):
     how: How
 
 
+class _Known:
+    """What is asked of the equations of a system, whatever the order of their elimination."""
+
+    def __init__(self, system: EquationSystem) -> None:
+        self.system = system
+        self.nominal = Nominal(system.graph)
+        self.colour, self.variable_colour = colours(system)
+        self.position = {v: i for i, v in enumerate(system.unknowns)}
+        self.holders: dict[Expr, list[int]] = {v: [] for v in system.unknowns}
+        for row, equation in enumerate(system.equations):
+            for variable in equation.variables:
+                self.holders[variable].append(row)
+        self._solutions: dict[tuple[int, Expr], Solution | None] = {}
+
+    def solution(self, row: int, variable: Expr) -> Solution | None:
+        """The variable from an equation, None where it cannot be had."""
+        key = row, variable
+        if key not in self._solutions:
+            zero, nominal = self.system.equations[row].zero, self.nominal
+            self._solutions[key] = solve(
+                self.system.graph.pool, zero, variable, nominal.vanishes, nominal.value
+            )
+        return self._solutions[key]
+
+
 #: Equations up to which the rank of those that no sensor reaches is taken as well.
 _CHECKED = 2000
 
@@ -77,23 +102,24 @@ class Strategy(NamedTuple):
 
 
 class Chain:
-    """The state of one elimination."""
+    """The state of one elimination; one by another strategy has in common what is `known`."""
 
-    def __init__(self, system: EquationSystem, strategy: Strategy | None = None) -> None:
+    def __init__(
+        self,
+        system: EquationSystem,
+        strategy: Strategy | None = None,
+        known: _Known | None = None,
+    ) -> None:
         chosen = strategy or Strategy()
+        self.known = known or _Known(system)
         self.system = system
         self.free = chosen.free
         self.starts = chosen.starts
         self.eager = chosen.eager
         self.pool = system.graph.pool
-        self.colour, self.variable_colour = colours(system)
-        self.position = {v: i for i, v in enumerate(system.unknowns)}
         self.waiting = [len(e.variables) for e in system.equations]
         self.used = [False] * len(system.equations)
-        self.holders: dict[Expr, list[int]] = {v: [] for v in system.unknowns}
-        for row, equation in enumerate(system.equations):
-            for variable in equation.variables:
-                self.holders[variable].append(row)
+        self.holders = self.known.holders
         self.closed: dict[Expr, Expr] = {}
         self.cost: dict[Expr, Cost] = {}
         self.steps: dict[Expr, Step] = {}
@@ -101,7 +127,7 @@ class Chain:
         self.turn = itertools.count()  # a variable may be computed anew: no two have the same
         self.heap: list[_Offer] = []
         self.later: list[_Offer] = []
-        self.nominal = Nominal(system.graph)
+        self.nominal = self.known.nominal
         self.delayed = {s.name for s in system.graph.sensors if s.delay}
         self.loops = Loops(self.pool, self.nominal, patient=not chosen.starts)
         self.oversized: list[list[Equation]] = []  # linear loops too large to be written out
@@ -165,9 +191,7 @@ class Chain:
             how = "integrated"
         else:
             free = False
-            found = solve(
-                self.pool, equation.zero, variable, self.nominal.vanishes, self.nominal.value
-            )
+            found = self.known.solution(row, variable)
             if found is None:
                 return
             solution = found
@@ -185,8 +209,8 @@ class Chain:
         if equation.kind == "sensor" and equation.name in self.delayed:
             cost = cost._replace(depth=cost.depth + 1)  # what is known at once is taken before
         offer = _Offer(
-            cost, self.colour[row], self.variable_colour[variable], row,
-            self.position[variable], solution, how,
+            cost, self.known.colour[row], self.known.variable_colour[variable], row,
+            self.known.position[variable], solution, how,
         )  # fmt: skip
         heapq.heappush(self.later if late else self.heap, offer)
 
@@ -293,7 +317,7 @@ class Chain:
                     if c in degree:
                         degree[c] += 1
             best = min(
-                block, key=lambda c: (-degree[c], self.variable_colour[names[c]], names[c].id)
+                block, key=lambda c: (-degree[c], self.known.variable_colour[names[c]], names[c].id)
             )
             chosen.append(names[best])
         for variable in chosen:
@@ -397,7 +421,9 @@ class Chain:
             if found is None:
                 missing.append(initial_value_needed(equation, expr, steps))
             elif found.expr is not self.pool.zero:
-                closings.append(Closing(equation, found.expr, steps, found.order, found.raw))
+                loop = tuple([self.system.equations[r] for r in rows[:-1]])
+                own = equation, found.expr, steps, found.order, found.raw
+                closings.append(Closing(*own, loop=loop))
         unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
         unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
         for rows, about in self.loops.lost:

@@ -26,8 +26,6 @@ class Cost(NamedTuple):
 #: What an iteration, and an integration from an undeclared start, count in integrations.
 ITERATION, FREE_START = 10, 1000
 
-_NOTHING = Cost(0, 0, 0, 0, 0)
-
 #: A variable that a loop gives.
 LOOP = Cost(0, 1, 0, 1, 0)
 
@@ -40,7 +38,9 @@ def after(others: Sequence[Cost], late: int, hard: int, derived: bool, free: int
     >>> after([Cost(0, 0, 0, 1, 0), Cost(0, 1, 0, 3, 0)], late=0, hard=0, derived=True, free=0)
     Cost(late=0, hard=1, excess=1, depth=4, order=1)
     """
-    most = map(max, zip(_NOTHING, *others, strict=True))
-    late_below, hard_below, _, depth, order = most
+    late_below = hard_below = depth = order = 0
+    for below in others:
+        late_below, hard_below = max(late_below, below.late), max(hard_below, below.hard)
+        depth, order = max(depth, below.depth), max(order, below.order)
     order += derived
     return Cost(late_below + late, hard_below + hard, max(order - free, 0), depth + 1, order)

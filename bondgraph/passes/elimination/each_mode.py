@@ -16,7 +16,7 @@ from bondgraph.algebra.in_mode import in_mode
 from bondgraph.algebra.summands import summands
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological, variables
-from bondgraph.ir.residuals import Closing, ReducedSystem, Step
+from bondgraph.ir.residuals import Closing, InPosition, ReducedSystem, Step
 from bondgraph.structural.rank import relations
 
 _MOST = 6  # modes; each doubles the work and the relations
@@ -115,6 +115,7 @@ class _Join:
         self.pool: Pool = system.graph.pool
         self.modes = modes
         self.answers = answers
+        self.settings = list(product((True, False), repeat=len(modes)))
         self.number = {id(e): r for own in held for r, e in enumerate(own.equations)}
 
     def joined(self) -> ReducedSystem | None:
@@ -168,6 +169,11 @@ class _Join:
             self.steps(column),
             max(c.differentiated for c in column if c),
             self._chosen(raws),
+            each=tuple(
+                InPosition(tuple(zip(self.modes, setting, strict=True)), closing)
+                for setting, closing in zip(self.settings, column, strict=True)
+                if closing is not None
+            ),
         )
 
     def steps(self, column: Sequence[Closing | ReducedSystem | None]) -> tuple[Step, ...]:

@@ -46,19 +46,19 @@ def _eliminated(system: EquationSystem) -> ReducedSystem:
     chain = _run(Chain(system))
     if chain.tangled():
         order = highest_order([row.expr for row in chain.loops.plain])
-        near = _run(Chain(system, Strategy(free=order)))
+        near = _run(Chain(system, Strategy(free=order), chain.known))
         if len(near.loops.plain) >= len(chain.loops.plain):
             chain = near
     best = chain.result()
     if chain.loops.raised:  # an integral from a declared start may need fewer derivatives
-        anew = _run(Chain(system, Strategy(eager=ITERATION))).result()
+        anew = _run(Chain(system, Strategy(eager=ITERATION), chain.known)).result()
         whole = not _lacking(anew) and len(anew.closings) >= len(best.closings)
         best = anew if whole and _order(anew) < _order(best) else best
     lacking = _lacking(best)
     codes = {m.finding.code for m in lacking}
     most = len(best.closings) + len(lacking)
     for strategy in [s for code, s in _OTHER_STRATEGIES if code in codes]:
-        anew = _run(Chain(system, strategy)).result()
+        anew = _run(Chain(system, strategy, chain.known)).result()
         if not _lacking(anew) and len(anew.closings) >= most:
             return anew
         if len(anew.closings) > len(best.closings):

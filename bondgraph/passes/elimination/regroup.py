@@ -15,7 +15,7 @@ from bondgraph.algebra.in_mode import in_mode
 from bondgraph.algebra.summands import summands
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.nodes import holding
-from bondgraph.ir.residuals import Closing, ReducedSystem, Step
+from bondgraph.ir.residuals import Closing, InPosition, ReducedSystem, Step
 from bondgraph.passes.elimination.each_mode import chosen, opposed
 from bondgraph.text.tuples import NamedTuple
 
@@ -87,6 +87,7 @@ def _exchange(
             raw=_joined(pool, mode, one.raw[0], other.raw[1], turned),
             steps=_steps((*old[no].steps, *old[yes].steps), order),
             differentiated=max(old[yes].differentiated, old[no].differentiated),
+            each=(*_there(old[yes], mode, True), *_there(old[no], mode, False)),
         )
 
 
@@ -94,6 +95,16 @@ def _halves(pool: Pool, closing: Closing, mode: Expr) -> _Halves:
     yes = in_mode(pool, [closing.expr, closing.raw], {mode: True})
     no = in_mode(pool, [closing.expr, closing.raw], {mode: False})
     return _Halves((yes[0], no[0]), (yes[1], no[1]))
+
+
+def _there(closing: Closing, mode: Expr, on: bool) -> list[InPosition]:
+    """What a relation is in one position of a switch."""
+    each = closing.each or (InPosition((), closing),)
+    return [
+        InPosition((*[s for s in setting if s[0] is not mode], (mode, on)), own)
+        for setting, own in each
+        if dict(setting).get(mode, on) is on
+    ]
 
 
 def _held(expr: Expr) -> frozenset[Expr]:

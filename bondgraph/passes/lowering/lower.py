@@ -114,12 +114,11 @@ def lower(
     exactly = Exactly(builder)
     filter = Filter(builder)
     switched = Switched(builder, filter, residuals.system)
-    tapes: list[Large | None] = []
     time_unit = options.time_unit
-    for residual, form in zip(residuals.residuals, forms, strict=True):
-        tapes.append(
-            None if form.tape is None else large(builder, residual, form.tape, options.rate)
-        )
+    tapes = [
+        None if form.tape is None else large(builder, residual, form.tape, options.rate, HIGHEST)
+        for residual, form in zip(residuals.residuals, forms, strict=True)
+    ]
     if time_unit is None:
         time_unit = max([t.time_unit for t in tapes if t is not None], default=1.0)
     lowered: list[_Lowered] = []
@@ -290,7 +289,7 @@ def _visible(
     builder: Builder, form: NormalForm, tape: Large | None, options: LowerOptions
 ) -> Seen | str:
     if tape is not None:
-        return tape.seen(builder, options.rate, options.resolution, HIGHEST)
+        return tape.seen(builder, options.rate, options.resolution)
     return seen(builder, form.terms, options.rate, options.resolution)
 
 
@@ -390,13 +389,11 @@ def _plain(value: object) -> object:
     """The value without places, which name files of the machine."""
     if not isinstance(value, tuple):
         return value
-    plain = [_plain(v) if isinstance(v, tuple) else v for v in value]
-    fields = getattr(value, "_fields", None)
-    if fields is None:
-        return tuple(plain)
+    if type(value) is tuple:
+        return tuple([_plain(v) if isinstance(v, tuple) else v for v in value])
     kept = [
-        own
-        for name, own in zip(fields, plain, strict=True)
+        _plain(own) if isinstance(own, tuple) else own
+        for name, own in zip(value._fields, value, strict=True)  # type: ignore[attr-defined]
         if name != "origin" and (own or name not in _ADDED)
     ]
     return (type(value).__name__, *kept)

@@ -27,13 +27,19 @@ def low_orders(
     factors = _factors(builder, tape)
     if factors is None:
         return None
-    rows = np.zeros((tape.nodes, highest))
-    rows[0, 0] = 1.0
+    table = np.zeros((tape.nodes, highest))
+    table[0, 0] = 1.0
+    rows = list(table)
     with np.errstate(all="ignore"):  # too large is infinite, and said to be
-        for edge in tape.edges:  # what is of higher order is left out
-            factor = factors[edge.scale] / unit**edge.shift
-            rows[edge.target, edge.shift :] += factor * rows[edge.source, : highest - edge.shift]
-    return rows
+        for target, source, shift, scale in tape.edges:  # what is of higher order is left out
+            if shift:
+                factor = factors[scale] / unit**shift
+                rows[target][shift:] += factor * rows[source][: highest - shift]
+            elif (factor := factors[scale]) == 1.0:
+                rows[target] += rows[source]
+            else:
+                rows[target] += factor * rows[source]
+    return table
 
 
 def _factors(builder: Builder, tape: Tape) -> dict[Expr, float] | None:
@@ -52,13 +58,12 @@ class Effects:
     factors by the parameters do the rest.
     """
 
-    def __init__(self, builder: Builder, tape: Tape, rate: float, highest: int) -> None:
+    def __init__(self, builder: Builder, tape: Tape, rate: float, low: Orders) -> None:
         self.builder = builder
         self.tape = tape
         self.unit = 1 / frequency(rate)
-        self.highest = highest
+        self.low = low
         self._found: dict[tuple[Expr, int], dict[str, float]] = {}
-        self._rows: dict[int, Orders] = {}
 
     def __call__(self, term: Term, name: str) -> float | None:
         """theta * d coefficient / d theta of a term."""
@@ -75,11 +80,7 @@ class Effects:
         builder, size = self.builder, term.order + 1
         factors = _factors(builder, self.tape)
         assert factors is not None  # or there were no terms to ask about
-        if size not in self._rows:
-            found = low_orders(builder, self.tape, self.unit, size)
-            assert found is not None
-            self._rows[size] = found
-        rows = self._rows[size]
+        rows = self.low[:, :size]
         leaf = next(f for f in self.tape.leaves if f.atom is term.atom)
         adjoint = np.zeros_like(rows)
         adjoint[leaf.node, term.order] = 1.0

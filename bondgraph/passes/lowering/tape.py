@@ -14,7 +14,7 @@ from bondgraph.ir.program import Assignment, PolynomialTape, TapeOp, TapeOutput
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import label
-from bondgraph.passes.lowering.polynomials import Effects, low_orders
+from bondgraph.passes.lowering.polynomials import Effects, Orders, low_orders
 from bondgraph.passes.lowering.procedure import Procedure
 from bondgraph.passes.lowering.program_names import identifier, short
 from bondgraph.passes.lowering.visible import Seen, frequency, split
@@ -26,7 +26,8 @@ _ENOUGH = 64  # orders that the time unit is judged by
 class Large(NamedTuple):
     """A large residual: the table for configure and the coefficient arrays by atom.
 
-    `before` computes what the factors of the table have in common.
+    `before` computes what the factors of the table have in common. `low` are the first coefficients
+    at the model's numbers, a row a node of the tape, in units of the highest frequency.
     """
 
     tape: Tape
@@ -35,10 +36,11 @@ class Large(NamedTuple):
     arrays: dict[Expr, tuple[str, int]]
     scales: list[Expr]
     time_unit: float
+    low: Orders | None
 
-    def seen(self, builder: Builder, rate: float, resolution: float, highest: int) -> Seen | str:
+    def seen(self, builder: Builder, rate: float, resolution: float) -> Seen | str:
         """The visible terms; their coefficients are elements of the arrays."""
-        low = low_orders(builder, self.tape, 1 / frequency(rate), highest + 2)
+        low = self.low
         if low is None:
             return f"it has derivatives up to order {self.statement.length - 1} and no numbers"
         pool, bandwidth = builder.pool, builder.option("bandwidth")
@@ -57,12 +59,14 @@ class Large(NamedTuple):
                     sizes.append(abs(row[k]))
                 else:
                     far.append((Term(leaf.atom, k, pool.one, leaf.static), 0.0))
-        effect = Effects(builder, self.tape, rate, highest)
+        effect = Effects(builder, self.tape, rate, low)
         found = split(tuple(terms), sizes, rate, resolution, effect, builder.absent)
         return found._replace(dropped=(*found.dropped, *far))
 
 
-def large(builder: Builder, residual: Residual, tape: Tape, rate: float) -> Large:
+def large(
+    builder: Builder, residual: Residual, tape: Tape, rate: float, highest: int
+) -> Large:
     """The table of a large residual, and the arrays for its coefficients."""
     name, origin = identifier(residual.name), residual.closing.origin
     length = max(leaf.degree for leaf in tape.leaves) + 1
@@ -100,7 +104,11 @@ def large(builder: Builder, residual: Residual, tape: Tape, rate: float) -> Larg
         f"{residual.name}: factors of all derivatives",
         origin,
     )
-    return Large(tape, before, statement, arrays, list(scales), _time_unit(builder, tape, rate))
+    start = 1 / frequency(rate)
+    low = low_orders(builder, tape, start, _ENOUGH)
+    time_unit = 1.0 if low is None else _time_unit(low, start)
+    kept = None if low is None else low[:, : highest + 2].copy()
+    return Large(tape, before, statement, arrays, list(scales), time_unit, kept)
 
 
 def _allocate(
@@ -136,15 +144,14 @@ def _allocate(
     return out, rows, where
 
 
-def _time_unit(builder: Builder, tape: Tape, rate: float) -> float:
-    """A power of two seconds in which no coefficient is larger than the first by far."""
+def _time_unit(low: Orders, start: float) -> float:
+    """A power of two seconds in which no coefficient is larger than the first by far.
+
+    `low` are the first coefficients, counted in units of `start` seconds.
+    """
     import numpy as np
 
-    start = 1 / frequency(rate)
-    sizes = low_orders(builder, tape, start, _ENOUGH)
-    if sizes is None:
-        return 1.0
-    sizes = np.abs(sizes)
+    sizes = np.abs(low)
     first = sizes[:, :1]
     scale = np.where(first > 0, first, sizes.max(axis=1, keepdims=True))
     most = np.divide(sizes, scale, out=np.zeros_like(sizes), where=scale > 0).max(axis=0).tolist()

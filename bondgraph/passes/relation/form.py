@@ -76,7 +76,7 @@ class _Former:
                 found.append(
                     Residual(
                         name, expr, own.equation, own.steps, own.differentiated, own.free_of,
-                        own.raw, orders,
+                        own.raw, orders, own.loop, own.each,
                     )
                 )  # fmt: skip
         return tuple(found)

@@ -164,7 +164,7 @@ class Follower:
         """Do what is wished; or why it cannot be done."""
         match message.get("do"):
             case "inject":
-                fault = wish(message, self._setup, self._targets)
+                fault = wish(message, self._setup.scenario.faults, self._targets)
                 if isinstance(fault, str):
                     return f"Not injected: {fault}."
                 if len(self.twin.fed.faults) >= INJECTED:

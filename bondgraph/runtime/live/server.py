@@ -11,18 +11,17 @@ import secrets
 import signal
 import socket
 import time as clocks
+from collections import Counter
 from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from threading import Thread
-from typing import Any, Protocol
+from typing import Any
 
 from aiohttp import WSMsgType, web
 from aiohttp.web_protocol import RequestHandler
 
 from bondgraph.runtime.live.gate import Gate
-from bondgraph.runtime.live.hub import Hub, Viewer, message_text
-from bondgraph.runtime.live.session import Session
-from bondgraph.text import limits
+from bondgraph.runtime.live.guests import Guest, Service, Talk
 from bondgraph.text.diagnostic import Trouble
 
 _LOCAL = ("127.0.0.1", "localhost", "[::1]", "::1")
@@ -37,7 +36,6 @@ POLICY = (
     " img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 _HEADERS = {
-    "Content-Security-Policy": POLICY,
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-store",
@@ -49,13 +47,6 @@ PAGES: web.AppKey[dict[RequestHandler | None, web.WebSocketResponse[Any]]] = web
 )
 
 _Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
-
-
-class Asked(Protocol):
-    """What takes the wishes of pages; `refuse` is told why one cannot be done."""
-
-    def __call__(self, message: dict[str, Any], refuse: Callable[[str], None]) -> None:
-        """Somebody wishes something."""
 
 
 def _quiet() -> logging.Logger:
@@ -100,15 +91,29 @@ def token_for(made: socket.socket) -> str:
     return "" if made.getsockname()[0] in _LOCAL else secrets.token_urlsafe(16)
 
 
+def address_of(made: socket.socket, token: str) -> str:
+    """Where a browser finds the page of what listens there."""
+    host, port = made.getsockname()[:2]
+    if host in ("0.0.0.0", "::"):
+        host = socket.gethostname()
+    name = f"[{host}]" if ":" in host else host
+    return f"http://{name}:{port}/{token + '/' if token else ''}"
+
+
 def application(
-    files: Mapping[str, tuple[str, str]], hub: Hub, ask: Asked, token: str = ""
+    files: Mapping[str, tuple[str, str]],
+    talks: Mapping[str, Talk],
+    token: str = "",
+    policy: str = POLICY,
 ) -> web.Application:
-    """The files by path, each (type, text), and `/ws`. Wishes of pages go to `ask`.
+    """The files by path, each (type, text), and WebSockets by theirs.
 
     Only requests that name this machine are answered, so that no page from elsewhere can reach it
     under a name of its own (DNS rebinding). With a token all paths begin with it.
     """
     prefix = f"/{token}/" if token else "/"
+    headers = {"Content-Security-Policy": policy, **_HEADERS}
+    taken: Counter[str] = Counter()  # pages of each WebSocket
 
     @web.middleware
     async def guarded(request: web.Request, handler: _Handler) -> web.StreamResponse:
@@ -116,19 +121,26 @@ def application(
             raise web.HTTPForbidden(text="This address is not served here.")
         response = await handler(request)
         if not response.prepared:
-            response.headers.update(_HEADERS)
+            response.headers.update(headers)
         return response
 
     async def answer(request: web.Request) -> web.StreamResponse:
         begin = request.path[: len(prefix)].encode(errors="replace")
         if hmac.compare_digest(begin, prefix.encode()):
             path = "/" + request.path[len(prefix) :]
-            if path == "/ws":
-                return await _talk(request, hub, ask)
+            if path in talks:
+                if taken[path] >= talks[path].pages:
+                    text = "Too many pages are open."
+                    raise web.HTTPServiceUnavailable(text=text, headers=headers)
+                taken[path] += 1
+                try:
+                    return await _talk(request, talks[path])
+                finally:
+                    taken[path] -= 1
             if path in files:
                 kind, text = files[path]
                 return web.Response(text=text, content_type=kind, charset="utf-8")
-        raise web.HTTPNotFound(text="There is nothing here.", headers=_HEADERS)
+        raise web.HTTPNotFound(text="There is nothing here.", headers=headers)
 
     async def goodbye(app: web.Application) -> None:
         pages = app[PAGES].values()
@@ -148,40 +160,38 @@ def application(
     return app
 
 
-async def _talk(request: web.Request, hub: Hub, ask: Asked) -> web.WebSocketResponse:
+async def _talk(request: web.Request, talk: Talk) -> web.WebSocketResponse:
     """One page, from its first message to its last."""
     pages = request.app[PAGES]
-    if len(pages) >= limits.PAGES:
-        raise web.HTTPServiceUnavailable(text="Too many pages are open.", headers=_HEADERS)
     page = web.WebSocketResponse(
         timeout=_CLOSE,
         autoping=False,
         heartbeat=20.0,
-        max_msg_size=limits.WISH_BYTES,
+        max_msg_size=talk.size,
         compress=False,
     )
     pages[request.protocol] = page
-    viewer = hub.join()
+    guest = talk.guest()
     try:
         await page.prepare(request)
-        writer = asyncio.create_task(_write(page, viewer, request.protocol))
+        writer = asyncio.create_task(_write(page, guest, request.protocol))
         try:
-            await _read(page, viewer, ask, request.protocol)
+            await _read(page, guest, request.protocol, talk.a_second)
         finally:
             writer.cancel()
             with suppress(asyncio.CancelledError, ConnectionError):
                 await writer
     finally:
-        hub.leave(viewer)
+        guest.leave()
         del pages[request.protocol]
     return page
 
 
-async def _write(page: web.WebSocketResponse, viewer: Viewer, connection: RequestHandler) -> None:
+async def _write(page: web.WebSocketResponse, guest: Guest, connection: RequestHandler) -> None:
     """Send what there is, as fast as the page takes it; one that takes nothing is cut off."""
     try:
         while not page.closed:
-            text = await viewer.next()
+            text = await guest.next()
             async with asyncio.timeout(_PATIENCE):
                 await page.send_str(text)
     except (ConnectionError, TimeoutError):
@@ -189,16 +199,9 @@ async def _write(page: web.WebSocketResponse, viewer: Viewer, connection: Reques
 
 
 async def _read(
-    page: web.WebSocketResponse, viewer: Viewer, ask: Asked, connection: RequestHandler
+    page: web.WebSocketResponse, guest: Guest, connection: RequestHandler, a_second: float
 ) -> None:
     """Hear what a page wishes, not more often than a person could; the rest waits at the page."""
-    loop = asyncio.get_running_loop()
-
-    def refuse(why: str) -> None:
-        text = message_text({"type": "refused", "message": why})
-        with suppress(RuntimeError):  # the loop has ended
-            loop.call_soon_threadsafe(viewer.put, "refused", text)
-
     free = clocks.monotonic()  # when all that was read is paid for
     async for message in page:
         if message.type is WSMsgType.PING:
@@ -206,9 +209,9 @@ async def _read(
         elif message.type is WSMsgType.TEXT:
             wish = _wish(message.data)
             if wish is not None:
-                ask(wish, refuse)
-        free = max(free, clocks.monotonic()) + 1 / limits.WISHES_A_SECOND
-        wait = free - clocks.monotonic() - _AT_ONCE / limits.WISHES_A_SECOND
+                guest.hear(wish)
+        free = max(free, clocks.monotonic()) + 1 / a_second
+        wait = free - clocks.monotonic() - _AT_ONCE / a_second
         if wait > 0:
             await asyncio.sleep(wait)
         if connection.transport is None:  # the page has gone: nobody wishes the rest
@@ -245,29 +248,24 @@ def _welcome(request: web.Request) -> bool:
 async def serve(
     made: socket.socket,
     files: Mapping[str, tuple[str, str]],
-    hello: dict[str, Any],
-    start: Callable[[Callable[[dict[str, Any]], None]], Session],
+    start: Callable[[], Service],
     ready: Callable[[], None],
     token: str = "",
+    policy: str = POLICY,
 ) -> None:
     """Serve until SIGINT or SIGTERM; a second one ends the program at once.
 
-    `start` makes the session for what it is to say to. All paths begin with the token.
+    `start` makes, in the loop of the server, what there is beside the files. All paths begin with
+    the token.
     """
     loop = asyncio.get_running_loop()
     over = asyncio.Event()
-    hub = Hub(hello)
-
-    def say(message: dict[str, Any]) -> None:
-        with suppress(RuntimeError):  # the loop has ended
-            loop.call_soon_threadsafe(hub.publish, message)
-
-    session = start(say)
+    service = start()
     failed: list[BaseException] = []
 
     def run() -> None:
         try:
-            session.run()
+            service.run()
         except BaseException as error:
             failed.append(error)
             with suppress(RuntimeError):
@@ -278,7 +276,7 @@ async def serve(
         for number in (signal.SIGINT, signal.SIGTERM):
             loop.remove_signal_handler(number)
 
-    app = application(files, hub, session.ask, token)
+    app = application(files, service.talks, token, policy)
     runner = web.AppRunner(
         app, access_log=None, logger=_quiet(), shutdown_timeout=_CLOSE, lingering_time=0.0
     )
@@ -291,13 +289,13 @@ async def serve(
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, end)
     # Who is in the middle of something long is left behind at the end: nothing of it is kept.
-    thread = Thread(target=run, name="session", daemon=True)
+    thread = Thread(target=run, name="service", daemon=True)
     thread.start()
     try:
         ready()
         await over.wait()
     finally:
-        session.stop("the server")
+        service.stop("the server")
         watch.cancel()
         listener.close()
         await runner.cleanup()

@@ -79,15 +79,16 @@ class Machine(NamedTuple):
     simulated: bool
 
 
-def wish(message: Mapping[str, object], setup: Setup, targets: Mapping[str, Target]) -> Fault | str:
+def wish(
+    message: Mapping[str, object], faults: Sequence[Fault], targets: Mapping[str, Target]
+) -> Fault | str:
     """The fault that a page asks for, or why it is none.
 
-    Either `{"fault": k}`, the scenario's own, from now on instead of from its time, or
+    Either `{"fault": k}`, one of `faults` of the scenario, from now on instead of from its time, or
     `{"target": name, "change": op, "value": number}` with the value in the unit of the target.
     """
     number = message.get("fault")
     if number is not None:
-        faults = setup.scenario.faults
         if not isinstance(number, int) or not 0 <= number < len(faults):
             return "the scenario has no such fault"
         fault = faults[number]

@@ -215,6 +215,32 @@ def test_explain_says_which_two_faults_look_like_one(bondgraph: Command) -> None
     assert "no two faults of other" in bondgraph("explain", MODELS / "khepera.bg", "line.L").out
 
 
+def test_explain_derives_a_residual(bondgraph: Command, tmp_path: Path) -> None:
+    out = bondgraph("explain", MOTOR, "r1", "--derive").out
+    assert " 7  storage L, line 15: differentiate its state for L.e\n" in out
+    assert "           = L*D(current)  (with 5)\n" in out
+    assert out.endswith("\n\nSymPy agrees: what it derived is the compiler's r1.\n")
+    drive = bondgraph("explain", MODELS / "drive.bg", "r1", "--derive").out
+    assert max(map(len, drive.splitlines())) < 110
+    latex = bondgraph("explain", MOTOR, "r1", "--derive", "--latex").out
+    assert latex.count("\\begin{aligned}") == latex.count("\\end{aligned}") == 8
+    path = tmp_path / "r1.ipynb"
+    assert bondgraph("explain", MOTOR, "r1", "--derive", "-o", path).out == f"written to {path}\n"
+    assert json.loads(path.read_text())["nbformat"] == 4
+
+
+def test_explain_derives_nothing_else(bondgraph: Command, tmp_path: Path) -> None:
+    done = bondgraph("explain", MOTOR, "load", "--derive")
+    assert done.status == 2 and "no residual" in done.err
+    done = bondgraph("explain", MOTOR, "r1", "--derive", "-o", tmp_path / "r1.docx")
+    assert done.status == 1 and ".ipynb, .py" in done.err and not list(tmp_path.iterdir())
+    done = bondgraph("explain", MOTOR, "r1", "-o", tmp_path / "r1.py")
+    assert done.status == 2 and "--derive" in done.err
+    crank = MODELS.parent / "tests" / "adversary" / "models" / "two_links.bg"
+    done = bondgraph("explain", crank, "r2", "--derive", "-o", tmp_path / "r2.py")
+    assert done.status == 0 and "note: Here the replay of r2 stops" in done.err
+
+
 def test_explain_suggests_a_name(bondgraph: Command) -> None:
     done = bondgraph("explain", MOTOR, "armatur")
     assert done.status == 2 and "armature" in done.err

@@ -39,7 +39,7 @@ STATEMENTS = [
     ("syntax-unexpected", "1:i when on@\n        -> R:x\n        -> R:y\n    }"),
     ("syntax-unexpected", "for j in 1..2@\n        a -> b\n    }"),
     ("syntax-unexpected", "R:x { e = R*f@, f = 2 }"),
-    ("syntax-unexpected", "R:x { @-> b }"),
+    ("not-a-junction", "R:x { @-> b }"),
     ("law-empty", "R:x @{ }"),
     ("junction-value", "0:j @= 3"),
     ("junction-in-chain", "a -> 1:j { -> b } @-> c"),

@@ -20,7 +20,9 @@ from bondgraph.notation.latex import latex, letter
         ("Omega2", r"\Omega_{2}"),
         ("wheel_left", r"\mathit{wheel\_left}"),
         ("Fx[2]", "F_{x,2}"),
-        ("m[12].el.k", "k^{m_{12}.el}"),
+        ("m[12].el.k", r"k_{\mathrm{m_{12}.el}}"),
+        ("a[1,2].C", r"C_{\mathrm{a_{1,2}}}"),
+        ("my_part.R", r"R_{\mathrm{my\_part}}"),
     ],
 )
 def test_one_rule_says_what_is_an_index(name: str, text: str) -> None:

@@ -57,7 +57,7 @@ def test_every_proposed_change_mends(shape: str) -> None:
         nodes = found[0].nodes(net)
         alike = list(range(len(graph.nodes)))
         told = explanation(graph, net, found[0])
-        for change, text in mends(graph, nodes, told, set(), alike):
+        for change, text, _ in mends(graph, nodes, told, set(), alike):
             proposed += 1
             assert most(hard(changed(graph, change)), []) is not None, text
     assert proposed > 10

@@ -195,6 +195,7 @@ def test_json() -> None:
         "labels": [{"path": "m.bg", "line": 6, "column": 5, "end_line": 7, "end_column": 15,
                     "text": "t"}],
         "help": "h",
+        "edits": [],
     }  # fmt: skip
 
 

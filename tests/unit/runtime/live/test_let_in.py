@@ -18,12 +18,14 @@ from aiohttp.test_utils import TestClient
 
 from bondgraph.runtime.live import gate as gates
 from bondgraph.runtime.live import server
+from bondgraph.runtime.live.audience import talk
 from bondgraph.runtime.live.follower import Follower
 from bondgraph.runtime.live.gate import Gate
 from bondgraph.runtime.live.hub import Hub
 from bondgraph.runtime.live.portions import Portion, Portions
 from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.sources.streams import Pipe
+from bondgraph.text import limits
 from tests.fuzz.connections import garbage
 from tests.live_flood import flood, served
 from tests.unit.runtime.live.test_server import Watched, _frame, _served, _verdict
@@ -112,7 +114,7 @@ def test_beyond_this_computer_the_address_has_a_token() -> None:
 
 
 def test_there_is_room_for_so_many_pages(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server.limits, "PAGES", 2)
+    monkeypatch.setattr(limits, "PAGES", 2)
 
     async def look(client: TestClient[Any, Any], hub: Hub, wishes: list[Any]) -> None:
         one, _ = [await client.ws_connect("/ws") for _ in range(2)]
@@ -157,7 +159,9 @@ def test_connections_that_show_no_page_are_cut(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(gates, "CONNECTIONS", 3)
 
     async def run() -> None:
-        app = server.application({"/": ("text/html", "x")}, Hub({"type": "hello"}), lambda *_: None)
+        app = server.application(
+            {"/": ("text/html", "x")}, {"/ws": talk(Hub({"type": "hello"}), lambda *_: None)}
+        )
         runner = web.AppRunner(app, shutdown_timeout=0.1)
         await runner.setup()
         assert runner.server is not None

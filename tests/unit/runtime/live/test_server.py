@@ -20,6 +20,7 @@ from aiohttp.test_utils import TestClient, TestServer
 from bondgraph.cli import live as command
 from bondgraph.cli import usage
 from bondgraph.cli.main import main
+from bondgraph.runtime.live.audience import talk
 from bondgraph.runtime.live.hub import Hub
 from bondgraph.runtime.live.samples import Simulated
 from bondgraph.runtime.live.server import PortTaken, application, listening
@@ -93,7 +94,7 @@ def _served(
 ) -> None:
     async def run() -> None:
         hub, wishes = Hub({"type": "hello"}), []
-        app = application(FILES, hub, lambda wish, _: wishes.append(wish), token)
+        app = application(FILES, {"/ws": talk(hub, lambda wish, _: wishes.append(wish))}, token)
         async with TestClient(TestServer(app, host="127.0.0.1")) as client:
             await test(client, hub, wishes)
 
@@ -304,7 +305,7 @@ def test_faults_are_injected_refused_and_taken_back(tmp_path: Path) -> None:
 
 def test_sizes_are_in_the_units_of_the_model() -> None:
     volts = Target("U", "input", "mV", 1e-3, None)
-    fault = wish({"target": "U", "change": "+=", "value": 250}, rover_setup(), {"U": volts})
+    fault = wish({"target": "U", "change": "+=", "value": 250}, (), {"U": volts})
     assert not isinstance(fault, str)
     assert (fault.op, fault.value, fault.label) == ("+=", 0.25, "U + 250 mV")
     kinds = {t.name: (t.kind, t.unit, t.value) for t in command.targets(rover().graph)}

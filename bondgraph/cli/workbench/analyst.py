@@ -1,0 +1,193 @@
+"""Looks at the texts of one page in processes beside the server: the newest one, the rest is stale.
+
+A text has a process for as long as it is the newest. The process is ended when a newer text is
+there, but not before it has sent its sketch: so that the drawing follows while somebody types on
+and on, and what takes long begins when nobody types.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import time as clocks
+from collections.abc import Callable
+from contextlib import suppress
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from threading import Event, Lock, Thread
+from typing import Any
+
+from bondgraph.cli.workbench.sketch import Job, sketch
+from bondgraph.cli.workbench.staged import staged
+
+Say = Callable[[dict[str, Any]], None]
+
+_SKETCH = 20.0  # s that a drawing may take
+_SOON = 0.1  # s between two looks whether processes can be had
+_LONGEST = 300.0  # s that residuals may take, or a run
+
+
+class Processes:
+    """Starts processes quickly: a fork of one that has loaded everything, where there can be one.
+
+    It takes some seconds to load that; `ready` says when.
+    """
+
+    def __init__(self) -> None:
+        forks = "forkserver" in multiprocessing.get_all_start_methods()
+        self._context: Any = multiprocessing.get_context("forkserver" if forks else "spawn")
+        self.ready = Event()
+        if not forks:
+            self.ready.set()
+            return
+        self._context.set_forkserver_preload(["bondgraph.cli.workbench.warmed"])
+        Thread(target=self._first, name="first process", daemon=True).start()
+
+    def _first(self) -> None:
+        """One with nothing to do is there as soon as all is loaded."""
+        first = self._context.Process(target=int, daemon=True)
+        first.start()
+        first.join()
+        self.ready.set()
+
+    def start(self, job: Job) -> tuple[BaseProcess, Connection]:
+        """A process for a text, and what it says."""
+        here, there = self._context.Pipe()
+        process: BaseProcess = self._context.Process(target=staged, args=(there, job), daemon=True)
+        process.start()
+        there.close()
+        return process, here
+
+
+class Analyst:
+    """One page's; `say` is told what is found, from a thread of its own."""
+
+    def __init__(self, processes: Processes, say: Say) -> None:
+        self._processes, self._say = processes, say
+        self._lock = Lock()
+        self._job: Job | None = None
+        self._run: dict[str, Any] | None = None
+        self._over = False
+        self._woken, self._wake = os.pipe()
+        self._process: BaseProcess | None = None
+        self._pipe: Connection | None = None
+        self._version = -1
+        self._early: Job | None = None  # looked at before there were processes
+        self._until = 0.0  # on the clock, when what is awaited has taken too long
+        self._sketching = False
+        self._thread = Thread(target=self._work, name="analyst", daemon=True)
+        self._thread.start()
+
+    def look(self, job: Job) -> None:
+        """There is a newer text."""
+        with self._lock:
+            self._job, self._run = job, None
+        self._nudge()
+
+    def run(self, settings: dict[str, Any]) -> None:
+        """A run of the newest text is asked for."""
+        with self._lock:
+            self._run = settings
+        self._nudge()
+
+    def end(self) -> None:
+        """The page has gone."""
+        self._over = True
+        self._nudge()
+
+    def _nudge(self) -> None:
+        with suppress(OSError):
+            os.write(self._wake, b"x")
+
+    # -------------------------------------------------------------------- the thread
+
+    def _work(self) -> None:
+        try:
+            while not self._over:
+                self._turn()
+        finally:
+            self._kill()
+            os.close(self._woken)
+            os.close(self._wake)
+
+    def _turn(self) -> None:
+        """Wait for the page or the process, and do what follows."""
+        watched: list[Any] = [self._woken, *([self._pipe] if self._pipe is not None else [])]
+        left = self._until - clocks.monotonic() if self._until else None
+        if self._early is not None:
+            left = _SOON
+        ready = wait(watched, None if left is None else max(left, 0.0))
+        if self._woken in ready:
+            os.read(self._woken, 4096)
+        if self._pipe is not None and self._pipe in ready:
+            self._receive(self._pipe)
+        if not ready and self._until and clocks.monotonic() >= self._until:
+            self._fail("This takes too long; it was given up.")
+        if self._over:
+            return
+        job, run = self._due()
+        if self._early is not None and self._processes.ready.is_set():
+            job, self._early = job or self._early, None
+        if job is not None:
+            self._start(job)
+        elif run is not None and self._pipe is not None:
+            with suppress(OSError):
+                self._pipe.send(run)
+            self._until = clocks.monotonic() + _LONGEST
+
+    def _due(self) -> tuple[Job | None, dict[str, Any] | None]:
+        """What is to be begun now: nothing before a sketch that is being made is there."""
+        with self._lock:
+            if self._sketching:
+                return None, None
+            job, self._job = self._job, None
+            run = self._run
+            if self._pipe is not None:
+                self._run = None
+            return job, run
+
+    def _start(self, job: Job) -> None:
+        """Begin with a text; while processes cannot be had yet, its sketch is made here."""
+        self._kill()
+        if not self._processes.ready.is_set():
+            self._say(sketch(job))
+            self._early = job
+            return
+        self._process, self._pipe = self._processes.start(job)
+        self._version, self._sketching = job.version, True
+        self._until = clocks.monotonic() + _SKETCH
+
+    def _receive(self, pipe: Connection) -> None:
+        try:
+            message = pipe.recv()
+        except (EOFError, OSError):
+            self._gone()
+            return
+        self._sketching = False
+        more = message["type"] == "sketch" and message["sound"]
+        self._until = clocks.monotonic() + _LONGEST if more else 0.0
+        self._say(message)
+
+    def _gone(self) -> None:
+        """The process has ended: because it had said all, or because something ended it."""
+        process = self._process
+        assert process is not None
+        process.join()
+        if process.exitcode:
+            self._fail("This takes more memory than there is, or found a bug in bondgraph.")
+        else:
+            self._kill()
+
+    def _fail(self, why: str) -> None:
+        self._say({"type": "failed", "version": self._version, "message": why})
+        self._kill()
+
+    def _kill(self) -> None:
+        if self._process is not None:
+            self._process.kill()
+            self._process.join()
+            self._process.close()
+        if self._pipe is not None:
+            self._pipe.close()
+        self._process = self._pipe = None
+        self._sketching, self._until = False, 0.0
