@@ -430,9 +430,12 @@ class Compilation:
         return scenario._replace(instruments=found)
 
     def changes(
-        self, folder: str | os.PathLike[str], targets: Sequence[str] | None = None
+        self,
+        folder: str | os.PathLike[str],
+        targets: Sequence[str] | None = None,
+        extras: Sequence[str] | None = None,
     ) -> tuple[Change, ...]:
-        """What `write` would do below `folder`, file by file, without doing it.
+        """What `write` with the same arguments would do, file by file, without doing it.
 
         >>> import bondgraph
         >>> c = bondgraph.compile("models/dc_motor.bg")
@@ -443,8 +446,7 @@ class Compilation:
 
         if not self.residuals:
             return ()
-        own = self.artifacts if targets is None else self._emitted(tuple(targets))
-        return changes(own, folder)
+        return changes(self._chosen(targets, extras), folder)
 
     @cached_property
     def structure(self) -> StructuralModel:
@@ -713,9 +715,18 @@ class Compilation:
 
         if not self.residuals:
             return ()
-        languages = self.options.targets if targets is None else targets
-        further = self.options.extras if extras is None else extras
-        return write(self._emitted(languages, further), folder)
+        return write(self._chosen(targets, extras), folder)
+
+    def _chosen(
+        self, targets: Sequence[str] | None, extras: Sequence[str] | None
+    ) -> tuple[Artifact, ...]:
+        """The files in these languages with these extras; those of the options without them."""
+        if targets is None and extras is None:
+            return self.artifacts
+        own = self.options
+        return self._emitted(
+            own.targets if targets is None else targets, own.extras if extras is None else extras
+        )
 
     @cached_property
     def runnable_programs(self) -> tuple[Runnable, Runnable | None]:
