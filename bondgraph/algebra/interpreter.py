@@ -149,13 +149,13 @@ class Interpreter:
         match node:
             case Ref():
                 return self.values[node]
-            case Const():
-                found = self._constants.get(node.value)
-                if found is None:
-                    found = self.number.real(node.value)
-                    if node.value:  # zeros of either sign are equal
-                        self._constants[node.value] = found
-                return found
+            case Product():
+                product = self._value(node.factors[0])
+                for factor in node.factors[1:]:
+                    product = product * self._value(factor)
+                for divisor in node.divisors:
+                    product = product / self._value(divisor)
+                return product
             case Sum():
                 total: Real = None
                 for positive, term in node.terms:
@@ -165,13 +165,13 @@ class Interpreter:
                     else:
                         total = total + x if positive else total - x
                 return self.number.real(0.0) if total is None else total
-            case Product():
-                product = self._value(node.factors[0])
-                for factor in node.factors[1:]:
-                    product = product * self._value(factor)
-                for divisor in node.divisors:
-                    product = product / self._value(divisor)
-                return product
+            case Const():
+                found = self._constants.get(node.value)
+                if found is None:
+                    found = self.number.real(node.value)
+                    if node.value:  # zeros of either sign are equal
+                        self._constants[node.value] = found
+                return found
             case Function():
                 return self._function(node)
             case Choice():

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 _INDEX = re.compile(r"\[(\d+)\]")
 _FOREIGN = re.compile(r"[^A-Za-z0-9_]")
 
 
+@lru_cache(maxsize=1 << 14)  # each language, and each part of its code, asks for the same names
 def identifier(path: str) -> str:
     """A name of the model as an identifier: `.` and `[i]` become `__`, other letters their code.
 

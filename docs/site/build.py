@@ -8,6 +8,7 @@ A warning of Sphinx, a link that leads nowhere or a file of another host is an e
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -16,6 +17,7 @@ import tomllib
 from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote, urlsplit
 
 import gallery
@@ -94,8 +96,8 @@ class Stage:
         """Write every page."""
         for page in sorted(self.shown):
             self.write(page.relative_to(ROOT), self.head(page) + self.links(page) + self.tail(page))
-        for picture in (ROOT / "docs" / "pictures").glob("*.svg"):
-            self.write(picture.relative_to(ROOT), picture.read_text(encoding="utf-8"))
+        for picture in (ROOT / "docs" / "pictures").iterdir():
+            self.write(picture.relative_to(ROOT), picture.read_bytes())
         for model in self.models:
             for name, text in gallery.page(model).items():
                 self.write(Path("models", name), text)
@@ -106,14 +108,15 @@ class Stage:
         for old in {path for path in PAGES.rglob("*") if path.is_file()} - self.written:
             old.unlink()
 
-    def write(self, path: Path, text: str) -> None:
+    def write(self, path: Path, text: str | bytes) -> None:
         """One file, at its path in the repository; Sphinx goes by the time at which it changed."""
         place = PAGES / path
         self.written.add(place)
-        if place.exists() and place.read_text(encoding="utf-8") == text:
+        data = text.encode() if isinstance(text, str) else text
+        if place.exists() and place.read_bytes() == data:
             return
         place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_text(text, encoding="utf-8")
+        place.write_bytes(data)
 
     def head(self, page: Path) -> str:
         """Diagnostics are too many for the menu, which every page has; their list leads to them."""
@@ -148,7 +151,7 @@ class Stage:
                 return match[0]
             path, hash_, anchor = match[2].partition("#")
             target = (page.parent / path).resolve()
-            if target in self.shown or target.suffix == ".svg":
+            if target in self.shown or target.suffix in (".svg", ".png"):
                 return match[0]
             there = relative(self.place(target), page.relative_to(ROOT).parent)
             return f"{match[1]}{there}{hash_}{anchor}{match[3]}"
@@ -196,10 +199,27 @@ def path(entry: str) -> str:
 
 
 def block(file: Path) -> str:
-    """A file as it is, in a fence that nothing in it closes."""
+    """A file as it is, in a fence that nothing in it closes; of a notebook its cells."""
+    if file.suffix == ".ipynb":
+        return notebook(json.loads(file.read_text(encoding="utf-8")))
     kinds = {".bg": "bg", ".c": "c", ".h": "c", ".py": "python", ".toml": "toml", ".json": "json"}
     text = file.read_text(encoding="utf-8")
     return f"````{kinds.get(file.suffix, 'text')}\n{text}\n````"
+
+
+def notebook(book: dict[str, Any]) -> str:
+    """The cells of a notebook with their outputs, formulas as formulas."""
+    parts = []
+    for cell in book["cells"]:
+        source = "".join(cell["source"])
+        parts.append(source if cell["cell_type"] == "markdown" else f"```python\n{source}\n```")
+        for output in cell.get("outputs", ()):
+            data = output.get("data", {"text/plain": output.get("text", "")})
+            formula = "".join(data.get("text/latex", "")).strip("$ \n")
+            formula = formula.removeprefix("\\displaystyle")
+            text = "".join(data.get("text/plain", ""))
+            parts.append(f"```math\n{formula}\n```" if formula else f"```text\n{text}\n```")
+    return "\n\n".join(parts)
 
 
 def relative(path: Path, folder: Path) -> str:

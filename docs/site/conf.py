@@ -6,9 +6,7 @@ import re
 
 import latex2mathml.converter
 from docutils import nodes
-from pygments.lexers import get_lexer_by_name
 from pygments.lexers.special import TextLexer
-from pygments.util import ClassNotFound
 from sphinx.application import Sphinx
 
 import bondgraph
@@ -67,9 +65,5 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_html_math_renderer("mathml", (_inline_math, None), (_block_math, None))
     app.connect("autodoc-process-docstring", _plain)
     app.add_lexer("ebnf", TextLexer)  # that of Pygments knows another notation
-    for name in ("bg", "csv"):
-        try:
-            get_lexer_by_name(name)
-        except ClassNotFound:
-            app.add_lexer(name, TextLexer)
+    app.add_lexer("csv", TextLexer)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -121,7 +121,7 @@ def _do(step: Step, folder: Path) -> str:
     endless = step.kind == "sh" and _ENDLESS.search(step.text)
     tools = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     env = {**os.environ, "PATH": tools, "PYTHONPATH": str(ROOT), "COLUMNS": "100", "NO_COLOR": "1",
-           "PYTHONUNBUFFERED": "1"}  # fmt: skip
+           "PYTHONUNBUFFERED": "1", "BROWSER": "true"}  # fmt: skip
     process = subprocess.Popen(
         [*words, step.text], cwd=folder, env=env, text=True, start_new_session=True,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,

@@ -32,24 +32,6 @@ def test_paths_that_are_named_exist(page: Path) -> None:
         assert (ROOT / path).exists(), f"{page.name}: {path}"
 
 
-def complete_models() -> list[tuple[str, str]]:
-    """Every block of a page that is a whole .bg file."""
-    found = []
-    for page in PAGES:
-        for language, text in FENCE.findall(page.read_text(encoding="utf-8")):
-            whole = text.startswith("bg 1\n") and text.count("{") == text.count("}")
-            if language == "bg" and whole:
-                found.append((named(page), text))
-    return found
-
-
-@pytest.mark.parametrize(("page", "text"), complete_models())
-def test_whole_models_in_the_documentation_compile(page: str, text: str) -> None:
-    compilation = Compilation(Source(page, text))
-    assert compilation.verification
-    assert compilation.signatures.residuals
-
-
 def test_the_tour_keeps_its_promise() -> None:
     page = (ROOT / "docs" / "language.md").read_text(encoding="utf-8")
     text = next(t for language, t in FENCE.findall(page) if language == "bg")

@@ -67,10 +67,12 @@ def test_no_snippet_is_left_out_without_a_reason() -> None:
 
 
 def whole(page: str, text: str) -> bool:
-    """Whether a model compiles; of a part of one, which ends early, whether it is sound."""
+    """Whether a model has verified residuals; of a part, which ends early, whether it is sound."""
     cut_off = text.count("{") - text.count("}")
     compilation = Compilation(Source(page, text + "}" * cut_off), options=Options(open_ports=True))
-    return bool(compilation.integral if cut_off else compilation.signatures)
+    if cut_off:
+        return bool(compilation.integral)
+    return bool(compilation.verification and compilation.signatures.residuals)
 
 
 def test_every_target_of_make_and_program_that_is_named_exists() -> None:
