@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from bondgraph.ir.expr import Expr, Op, Pool, topological
 from bondgraph.ir.nodes import holding, linear_terms
 
 
-def affine(pool: Pool, node: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
-    """`slope`, `rest` with node = slope * variable + rest, both free of it; None if not affine."""
-    holders = holding([node], lambda n: n is variable)
+def affine(
+    pool: Pool, node: Expr, variable: Expr, holders: Mapping[Expr, None] | None = None
+) -> tuple[Expr, Expr] | None:
+    """`slope`, `rest` with node = slope * variable + rest, both free of it; None if not affine.
+
+    `holders` are the nodes that are made of the variable, where it is known already.
+    """
+    if holders is None:
+        holders = holding([node], lambda n: n is variable)
     if node not in holders:
         return pool.zero, node
     parts: dict[Expr, tuple[Expr, Expr]] = {variable: (pool.one, pool.zero)}

@@ -66,7 +66,7 @@ def solve(
     holders = holding([zero], lambda n: n is variable)
     if zero not in holders:
         return None
-    linear = affine(pool, zero, variable)
+    linear = affine(pool, zero, variable, holders)
     if linear is not None:
         slope, rest = linear
         if slope is pool.zero or not _dividable(pool, slope, vanishes):

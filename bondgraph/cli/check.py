@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph import compile
 from bondgraph.cli import console
+from bondgraph.cli.watching import sources_of, watched, watching
 from bondgraph.editor.soundness import soundness
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.numerals import plural
@@ -37,10 +38,19 @@ def arguments(parser: ArgumentParser) -> None:
         "--strict", action="store_true", help="warnings count as errors: exit with 1"
     )
     parser.add_argument("--quiet", action="store_true", help="say nothing of what is sound")
+    watching(parser)
 
 
 def run(args: Namespace) -> int:
-    """Check every model; the exit status is 1 if one is wrong."""
+    """Check every model; the exit status is 1 if one is wrong. With --watch after each change."""
+    used: set[str] = set()
+    if not args.watch:
+        return _checked(args, used)
+    return watched(lambda: _checked(args, used), args.models, lambda: used)
+
+
+def _checked(args: Namespace, used: set[str]) -> int:
+    """Check every model; the files that they were read from become `used`."""
     report = Report()
     lines: list[str] = []
     failures: list[CompileError] = []
@@ -52,6 +62,7 @@ def run(args: Namespace) -> int:
             diagnostics = error.diagnostics
         else:
             lines += [_line(c) for c in found.sound]
+            used.update(*[sources_of(c.graph) for c in found.sound])
             failures += found.failures
             diagnostics = found.diagnostics
         for diagnostic in diagnostics:

@@ -9,6 +9,7 @@ from pathlib import PurePath
 
 from bondgraph import compile
 from bondgraph.cli import console
+from bondgraph.cli.watching import sources_of, watched, watching
 from bondgraph.text.diagnostic import Trouble
 
 _KINDS = (".svg", ".png", ".pdf", ".tikz")
@@ -28,14 +29,27 @@ def arguments(parser: ArgumentParser) -> None:
     add("-o", "--output", metavar="FILE",
         help="where to write the figure, by its ending as .svg, .png, .pdf or .tikz; - for SVG on"
         " stdout (default: an .svg beside you, named like the model file)")  # fmt: skip
+    watching(parser)
 
 
 def run(args: Namespace) -> int:
-    """Write the figure; where strokes cannot be placed, one that shows why, with the status 1."""
+    """Write the figure, with --watch after each change."""
+    kind = _kind(args.output)
+    if not args.watch:
+        return _drawn(args, kind, set())
+    used: set[str] = set()
+    return watched(lambda: _drawn(args, kind, used), [args.model], lambda: used)
+
+
+def _drawn(args: Namespace, kind: str, used: set[str]) -> int:
+    """Write the figure; where strokes cannot be placed, one that shows why, with the status 1.
+
+    The files that it was read from become `used`.
+    """
     from bondgraph.backends.drawing.scene import Look
 
-    kind = _kind(args.output)
     compilation = compile(args.model, open_ports=True)
+    used |= sources_of(compilation.graph)
     conflicts = compilation.conflicts
     look = Look(args.values, args.numbers, args.boxes, not args.no_title, not args.no_legend)
     svg = compilation.drawing(args.derivative, look=look)

@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bondgraph.cli.options import serving
+from bondgraph.cli.options import announced, serving
 from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
@@ -70,11 +70,7 @@ def _serve(args: Namespace, made: Any) -> int:
     address = address_of(made, token)
 
     def ready() -> None:
-        print(f"{args.file}: look at {address}, stop with ^C", flush=True)
-        if not args.no_browser:
-            import webbrowser
-
-            webbrowser.open(address)
+        announced(f"editing {args.file}", address, args.no_browser)
 
     def start() -> Bench:
         return Bench(disk, lambda bench: Desk(bench, processes, hello))

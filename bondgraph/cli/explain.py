@@ -49,7 +49,7 @@ def arguments(parser: ArgumentParser) -> None:
         help="of a residual: how it follows from the equations, each step done by SymPy",
     )  # fmt: skip
     parser.add_argument(
-        "-o", "--out", metavar="FILE",
+        "-o", "--output", metavar="FILE",
         help="with --derive: into a notebook (.ipynb), a script (.py), .md, .tex or .txt",
     )  # fmt: skip
     isolating(parser)
@@ -57,14 +57,14 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Print the explanation; the exit status is 2 where there is nothing of that name."""
-    if args.out is not None and not (args.derive and args.name):
+    if args.output is not None and not (args.derive and args.name):
         print("-o is for a derivation: explain MODEL RESIDUAL --derive -o FILE", file=sys.stderr)
         return 2
     if args.name is None:
         return _code(args.subject)
     compilation = compile(args.subject, isolate=args.isolate)
     if args.derive:
-        return _derive(compilation, args.name, args.latex, args.out)
+        return _derive(compilation, args.name, args.latex, args.output)
     if args.latex:
         return _latex(compilation, args.name)
     lines = about(compilation, args.name)

@@ -10,6 +10,7 @@ from bondgraph import Options
 from bondgraph.cli import monitor
 from bondgraph.cli.log_options import note, operating_of
 from bondgraph.cli.options import (
+    announced,
     isolating,
     positive,
     read_tuning,
@@ -129,11 +130,7 @@ def _serve(args: Namespace, made: Any) -> int:
     address = address_of(made, token)
 
     def ready() -> None:
-        print(f"{machine.name}: {setup.what}; look at {address}, stop with ^C", flush=True)
-        if not args.no_browser:
-            import webbrowser
-
-            webbrowser.open(address)
+        announced(f"{machine.name}: {setup.what}", address, args.no_browser)
 
     asyncio.run(serve(made, files, lambda: Audience(hello, start), ready, token))
     print("stopped")

@@ -37,7 +37,7 @@ def plain_check(words: list[str]) -> SimpleNamespace | None:
 
     return SimpleNamespace(
         command="check", models=models, json="--json" in words, format="text", strict=False,
-        quiet=False,
+        quiet=False, watch=False,
     )  # fmt: skip
 
 

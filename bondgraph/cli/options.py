@@ -331,6 +331,15 @@ def read_tuning(path: str) -> Tuning:
         raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
 
 
+def announced(said: str, address: str, no_browser: bool) -> None:
+    """Say where a page is, and show it unless that is not wanted."""
+    print(f"{said}; look at {address}, stop with ^C", flush=True)
+    if not no_browser:
+        import webbrowser
+
+        webbrowser.open(address)
+
+
 def serving(parser: ArgumentParser, port: int) -> None:
     """Where a page is served."""
     add = parser.add_argument

@@ -11,6 +11,7 @@ from bondgraph import __version__
 
 #: Every command with its one line; the module of the same name has `arguments` and `run`.
 COMMANDS = {
+    "new": "make a model to begin with, a log of it, and a page with the commands for both",
     "check": "say whether models are sound: syntax, names, units, causality",
     "format": "write models in the one style they are all written in",
     "compile": "derive ARRs (residuals), fault signatures and code from a model",
@@ -28,6 +29,8 @@ COMMANDS = {
     "draw": "draw a bond graph with half arrows and causal strokes",
     "lsp": "answer an editor: findings, completion, hover and more while a model is written",
     "report": "write all that is known of a model as one HTML page",
+    "complete": "print what makes a shell complete commands, options and files",
+    "man": "print or write the manual pages",
 }
 
 _EPILOG = """\
@@ -88,3 +91,9 @@ def parser_for(command: str | None) -> argparse.ArgumentParser:
         if command in (None, name):
             import_module(f"bondgraph.cli.{name}").arguments(sub)
     return parser
+
+
+def subparsers(whole: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    """The parser of each command."""
+    groups = [a for a in whole._actions if isinstance(a, argparse._SubParsersAction)]
+    return {name: parser for group in groups for name, parser in group.choices.items()}

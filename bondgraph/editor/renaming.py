@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from bondgraph.editor.occurrences import Occurrence, Symbol
 from bondgraph.editor.soundness import check_text
 from bondgraph.editor.workspace import Workspace
@@ -38,7 +40,26 @@ def renamed(workspace: Workspace, symbol: Symbol, new: str) -> dict[str, list[Sp
         for diagnostic in _errors(path, after[path], after):
             if diagnostic.code not in {d.code for d in mistakes}:
                 raise CannotRename(f"as `{new}` there is a mistake: {diagnostic.message}")
+    if set(_places(found, new)) != _meant(workspace, after, symbol._replace(name=new)):
+        raise CannotRename(f"`{new}` means something else at one of these places")
     return found
+
+
+def _places(found: dict[str, list[Span]], new: str) -> Iterator[tuple[str, int]]:
+    """Where the new name stands, once every old one is replaced."""
+    for path, spans in found.items():
+        for number, span in enumerate(sorted(spans, key=lambda s: s.start)):
+            yield path, span.start + number * (len(new) - (span.end - span.start))
+
+
+def _meant(
+    workspace: Workspace, texts: dict[str, str], symbol: Symbol
+) -> set[tuple[str, int]]:
+    """Where a symbol is meant in other texts than those that are open."""
+    trial = Workspace(workspace.folders)
+    for path, text in texts.items():
+        trial.open(path, text)
+    return {(use.span.source.path, use.span.start) for use in trial.uses(symbol)}
 
 
 def _name(new: str) -> None:

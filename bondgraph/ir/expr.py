@@ -190,6 +190,7 @@ def raised(base: Rational, exponent: int) -> Rational:
 
 
 _ID = attrgetter("id")
+_NUM, _ADD, _MUL, _FN = Op.NUM, Op.ADD, Op.MUL, Op.FN  # asked for at every node that is made
 _ZERO, _ONE = Fraction(0), Fraction(1)
 
 
@@ -255,10 +256,10 @@ class Pool:
         collected: dict[Expr, Rational] = {}
         constant: Rational = 0
         for factor, node in terms:
-            if node.op is Op.ADD and len(node.args) == 1:
+            if node.op is _ADD and len(node.args) == 1:
                 factor = factor * node.coefficients[0]
                 node = node.args[0]
-            if node.op is Op.NUM:
+            if node.op is _NUM:
                 constant += factor * whole(node.number)
             elif node in collected:
                 collected[node] += factor
@@ -315,19 +316,19 @@ class Pool:
         for base, exponent in factors:
             if exponent == 0:
                 continue
-            if base.op is Op.ADD and len(base.args) == 1:
+            if base.op is _ADD and len(base.args) == 1:
                 coefficient *= raised(base.coefficients[0], exponent)
                 base = base.args[0]
-            if base.op is Op.NUM:
+            if base.op is _NUM:
                 coefficient *= raised(base.number, exponent)
-            elif base.op is Op.MUL:
+            elif base.op is _MUL:
                 for b, e in zip(base.args, base.exponents, strict=True):
                     collected[b] = collected.get(b, 0) + e * exponent
             else:
                 collected[base] = collected.get(base, 0) + exponent
         if not coefficient:
             return self.zero
-        for base in [b for b in collected if b.op is Op.FN and b.data == "abs"]:
+        for base in [b for b in collected if b.op is _FN and b.data == "abs"]:
             # x |x| is one odd monotone function: keep it recognisable, it has an inverse
             inner = base.args[0]
             if collected.get(inner, 0) >= 1 and collected[base] >= 1:
@@ -479,7 +480,7 @@ def below(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> 
     seen = set(roots)
     found = list(seen)
     for node in found:  # it grows as we go
-        if stop is None or not stop(node):
+        if node.args and (stop is None or not stop(node)):
             for arg in node.args:
                 if arg not in seen:
                     seen.add(arg)

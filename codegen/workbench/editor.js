@@ -172,6 +172,16 @@ export class Editor {
     this.list(diagnostics);
   }
 
+  // Remedies of the k-th finding that are changes of the text: a button each.
+  offer(k, remedies) {
+    const item = $("problems").querySelectorAll("li")[k];
+    if (!item) return;
+    item.append(make("p", { class: "remedies" }, ...remedies.map(([title, edits]) => make("button", { type: "button", class: "chip", onclick: () => {
+      this.view.dispatch({ changes: edits.map((e) => ({ from: this.at(e.range.start), to: this.at(e.range.end), insert: e.newText })) });
+      this.view.focus();
+    } }, title))));
+  }
+
   list(diagnostics) {
     const count = (severity) => diagnostics.filter((d) => SEVERITY[d.severity] === severity).length;
     const words = [["error", "error"], ["warning", "warning"], ["info", "note"]].map(([s, w]) => [count(s), w]).filter(([n]) => n).map(([n, w]) => `${n} ${w}${n > 1 ? "s" : ""}`);

@@ -1,6 +1,7 @@
 // The language server behind the editor: findings, completions, what stands under the pointer.
 import * as cm from "./vendored.js";
 
+const FIXED = 20; // findings whose remedies are asked for
 const PLAIN = new Set(["P", "CODE", "PRE", "EM", "STRONG", "UL", "OL", "LI", "BR", "HR", "H1", "H2", "H3", "H4", "SPAN", "TABLE", "THEAD", "TBODY", "TR", "TH", "TD", "BLOCKQUOTE"]);
 
 // Markup of a comment of the model: only what sets text, without any attribute; the rest is text.
@@ -44,7 +45,15 @@ export class LanguageServer {
 
   found(client, { uri, version, diagnostics }) {
     const file = client.workspace.getFile(uri);
-    if (file && (version === undefined || version === null || version === file.version)) this.tell(diagnostics, uri);
+    if (!file || (version !== undefined && version !== null && version !== file.version)) return true;
+    this.tell(diagnostics, uri);
+    const shown = this.shown = {};
+    for (const [k, d] of diagnostics.slice(0, FIXED).entries()) {
+      client.request("textDocument/codeAction", { textDocument: { uri }, range: d.range, context: { diagnostics: [d] } }).then((actions) => {
+        const own = (actions || []).filter((a) => a.edit && Object.keys(a.edit.changes || {}).join() === uri && (a.diagnostics || [d]).some((o) => o.message === d.message));
+        if (this.shown === shown && own.length) this.editor.offer(k, own.map((a) => [a.title, a.edit.changes[uri]]));
+      }, () => {});
+    }
     return true;
   }
 }

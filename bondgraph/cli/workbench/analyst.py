@@ -8,7 +8,7 @@ and on, and what takes long begins when nobody types.
 from __future__ import annotations
 
 import multiprocessing
-import os
+import socket
 import time as clocks
 from collections.abc import Callable
 from contextlib import suppress
@@ -22,6 +22,7 @@ from bondgraph.cli.workbench.staged import staged
 
 Say = Callable[[dict[str, Any]], None]
 
+_BUG = "This takes more memory than there is, or found a bug in bondgraph."
 _SKETCH = 20.0  # s that a drawing may take
 _SOON = 0.1  # s between two looks whether processes can be had
 _LONGEST = 300.0  # s that residuals may take, or a run
@@ -45,9 +46,12 @@ class Processes:
 
     def _first(self) -> None:
         """One with nothing to do is there as soon as all is loaded."""
-        first = self._context.Process(target=int, daemon=True)
-        first.start()
-        first.join()
+        try:
+            first = self._context.Process(target=int, daemon=True)
+            first.start()
+            first.join()
+        except (EOFError, OSError):  # what forks has died: each process loads all itself
+            self._context = multiprocessing.get_context("spawn")
         self.ready.set()
 
     def start(self, job: Job) -> tuple[BaseProcess, Connection]:
@@ -68,7 +72,8 @@ class Analyst:
         self._job: Job | None = None
         self._run: dict[str, Any] | None = None
         self._over = False
-        self._woken, self._wake = os.pipe()
+        self._woken, self._wake = socket.socketpair()
+        self._wake.setblocking(False)
         self._process: BaseProcess | None = None
         self._pipe: Connection | None = None
         self._version = -1
@@ -96,8 +101,8 @@ class Analyst:
         self._nudge()
 
     def _nudge(self) -> None:
-        with suppress(OSError):
-            os.write(self._wake, b"x")
+        with suppress(OSError):  # it has ended, or is woken already
+            self._wake.send(b"x")
 
     # -------------------------------------------------------------------- the thread
 
@@ -107,8 +112,8 @@ class Analyst:
                 self._turn()
         finally:
             self._kill()
-            os.close(self._woken)
-            os.close(self._wake)
+            self._woken.close()
+            self._wake.close()
 
     def _turn(self) -> None:
         """Wait for the page or the process, and do what follows."""
@@ -118,7 +123,7 @@ class Analyst:
             left = _SOON
         ready = wait(watched, None if left is None else max(left, 0.0))
         if self._woken in ready:
-            os.read(self._woken, 4096)
+            self._woken.recv(4096)
         if self._pipe is not None and self._pipe in ready:
             self._receive(self._pipe)
         if not ready and self._until and clocks.monotonic() >= self._until:
@@ -150,8 +155,12 @@ class Analyst:
         """Begin with a text; while processes cannot be had yet, its sketch is made here."""
         self._kill()
         if not self._processes.ready.is_set():
-            self._say(sketch(job))
             self._early = job
+            self._version = job.version
+            try:
+                self._say(sketch(job))
+            except Exception:  # whatever it is, the process will find it as well
+                self._fail(_BUG)
             return
         self._process, self._pipe = self._processes.start(job)
         self._version, self._sketching = job.version, True
@@ -174,7 +183,7 @@ class Analyst:
         assert process is not None
         process.join()
         if process.exitcode:
-            self._fail("This takes more memory than there is, or found a bug in bondgraph.")
+            self._fail(_BUG)
         else:
             self._kill()
 

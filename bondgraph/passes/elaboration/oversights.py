@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Mapping
 from itertools import chain
 
+from bondgraph.frontend.lexer import split
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Node, Sensor
 from bondgraph.ir.groups import Groups
 from bondgraph.ir.syntax import For, If, Input, Model, Param, Part
 from bondgraph.passes.elaboration.problems import listed
 from bondgraph.passes.elaboration.scope import NodeEntry, ValueEntry
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Edit, Label, Remedy, Report, removing
 from bondgraph.text.source import Span
 
 _SHOWN = 4  # places of one finding
+_HEADER = 2000  # letters of a model up to its brace
 _NAMED = 24  # elements of one note that are named, the others counted
 
 # ------------------------------------------------------------------------------- values
@@ -44,8 +46,19 @@ def report_unused(entries: Iterable[ValueEntry], used: set[ValueEntry], report: 
             "value-not-used",
             f"Nothing uses the {what} `{entry.local}`: it does not matter what it is.",
             origin,
-            help=f"Use it where it belongs, as in {example} or in a law, or leave it out.",
+            help=Remedy(
+                f"Use it where it belongs, as in {example} or in a law, or leave it out.",
+                removing(_line(entry.declaration.origin), "").edits,
+            ),
         )
+
+
+def _line(statement: Span) -> Span:
+    """A statement with its line, where nothing else stands in it."""
+    source, start, end = statement
+    begin = source.text.rfind("\n", 0, start)
+    alone = begin >= 0 and not source.text[begin:start].strip()
+    return Span(source, begin, end) if alone and source.text[end : end + 1] == "\n" else statement
 
 
 def _optional(model: Model) -> set[str]:
@@ -89,9 +102,32 @@ def report_nameless(nodes: Iterable[NodeEntry], report: Report) -> None:
         f"{listed(names, _NAMED)} {'have' if many else 'has'} a number for a value: "
         f"{'they are' if many else 'it is'} no fault {'candidates' if many else 'candidate'}.",
         *[Label(origin, "a number") for origin in list(first)[:_SHOWN]],
-        help=f"What may fail is a param: `param {example.name} = {number}` and "
-        f"`{example.type}:{example.name}`. What cannot is a const.",
+        help=Remedy(
+            f"What may fail is a param: `param {example.name} = {number}` and "
+            f"`{example.type}:{example.name}`. What cannot is a const.",
+            tuple([edit for n in list(first.values())[:_SHOWN] for edit in _named(n)]),
+        ),
     )
+
+
+def _named(node: NodeEntry) -> list[Edit]:
+    """The value of an element as a param of its model that is called like it."""
+    written, model = node.declaration, node.scope.model
+    if written is None or written.value is None or node.place is not None:
+        return []
+    source, start, _ = model.origin
+    header = split(source.text[start : start + _HEADER])
+    if node.name in node.scope.values or "{" not in header.words:
+        return []
+    value = Span(source, written.name.origin.end, (written.tolerance or written.value).origin.end)
+    if written.arguments or source is not value.source:
+        return []
+    text = value.text.lstrip(" =")
+    opened = start + header.starts[header.words.index("{")] + 1
+    behind = "" if source.text[opened : opened + 1] == "\n" else "\n"
+    declared = f"\n    param {node.name} = {text}{behind}"
+    changes = ((Span(source, opened, opened), declared), (value, ""))
+    return [Edit(f"declare `param {node.name} = {text}`", changes)]
 
 
 # ------------------------------------------------------------------------------- parts

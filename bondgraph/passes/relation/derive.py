@@ -233,7 +233,7 @@ class _Replay:
                     self._scaled(factor)
                 return factor
             self.steps = steps
-        raise Unshown("what is left is no multiple of the compiler's relation")
+        raise Unshown("SymPy does not see that what is left is a multiple of the compiler's")
 
     def _free_of_starts(self, relation: Any) -> Any:
         """The relation, differentiated until no initial value is in it that nobody declared."""

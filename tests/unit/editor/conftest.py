@@ -42,11 +42,15 @@ class Editor:
         uri = path.as_uri()
         text = path.read_text(encoding="utf-8") if text is None else text
         self.texts[uri] = text
-        self.news.clear()
         item = lsp.TextDocumentItem(uri, "bondgraph", 1, text)
         self.client.text_document_did_open(lsp.DidOpenTextDocumentParams(item))
-        await asyncio.wait_for(self.news.wait(), 60)
+        await self._until(lambda: uri in self.found)
         return uri
+
+    async def _until(self, holds: Callable[[], bool]) -> None:
+        while not holds():
+            self.news.clear()
+            await asyncio.wait_for(self.news.wait(), 60)
 
     async def type(self, uri: str, text: str) -> list[lsp.Diagnostic]:
         """Change the whole text; what the server finds then."""
@@ -58,9 +62,7 @@ class Editor:
                 [lsp.TextDocumentContentChangeWholeDocument(text)],
             )
         )
-        while self.found[uri].version != version:
-            self.news.clear()
-            await asyncio.wait_for(self.news.wait(), 60)
+        await self._until(lambda: self.found[uri].version == version)
         return list(self.found[uri].diagnostics)
 
     def at(self, uri: str, mark: str) -> dict[str, Any]:

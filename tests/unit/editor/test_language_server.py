@@ -250,3 +250,22 @@ def test_a_mistake_in_an_imported_file_is_shown_at_the_import(tmp_path: Path) ->
         assert not [d for d in await editor.type(uri, text) if d.severity == 1]
 
     with_editor(session)
+
+
+def test_a_name_that_a_law_would_take_for_its_own_variable_is_refused(tmp_path: Path) -> None:
+    text = "bg 1\nmodel M {\n    param a = 2\n    1:j { <- Se:U; -> R:r { e = a*f }; -> Df:y }\n}\n"
+
+    async def session(editor: Editor) -> None:
+        uri = await editor.open(tmp_path / "law.bg", text)
+        assert not editor.found[uri].diagnostics
+        place = editor.at(uri, "param a|")
+        with pytest.raises(Exception, match="means something else"):
+            await editor.client.text_document_rename_async(
+                lsp.RenameParams(new_name="f", **place)  # e = f*f is a law as well
+            )
+        done = await editor.client.text_document_rename_async(
+            lsp.RenameParams(new_name="drag", **place)
+        )
+        assert done is not None and done.changes is not None and len(done.changes[uri]) == 2
+
+    with_editor(session)

@@ -167,3 +167,21 @@ def test_a_text_with_a_mistake_is_not_saved(page: Workbench) -> None:
     assert page.file.read_text() == before
     page.until("document.querySelector('#problems').dataset.worst === 'error'")
     assert page.errors() == []
+
+
+def test_a_remedy_is_a_button_that_mends_the_text(page: Workbench) -> None:
+    page.tab.run("document.querySelector('#notice button')?.click()")
+    page.write()
+    for _ in "model {}":  # a bracket that is opened is closed
+        page.press("Backspace")
+    page.until("document.querySelector('#problems').dataset.worst === 'none'")
+    page.press("Home", control=True)
+    for _ in range(2):
+        page.press("ArrowDown")
+    page.press("End")
+    page.type("\nmodel X { parm Q = 1 Ohm; Se:U -> R:Q }")
+    page.until("document.querySelector('.remedies button')")
+    assert "param" in page.text(".remedies button")
+    page.push(".remedies button")
+    page.until("workbench.text.includes('model X { param Q = 1 Ohm')")
+    assert page.errors() == []
