@@ -139,7 +139,7 @@ export class Picture {
 
   // ------------------------------------------------------------------------ what is pointed at
 
-  target(from) { return from?.closest?.("[data-node], [data-bond]") || null; }
+  target(from) { return from?.closest?.("[data-tip]") || null; }
 
   over(from) {
     const at = this.target(from);
