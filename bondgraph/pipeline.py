@@ -719,7 +719,7 @@ class Compilation:
 
     def _chosen(
         self, targets: Sequence[str] | None, extras: Sequence[str] | None
-    ) -> tuple[Artifact, ...]:
+    ) -> tuple[Artifact | BinaryArtifact, ...]:
         """The files in these languages with these extras; those of the options without them."""
         if targets is None and extras is None:
             return self.artifacts
