@@ -64,7 +64,7 @@ Form = Literal["derivative", "observer"] | tuple[str, ...]
 _WATCHED = 200
 
 #: Options that change numbers of the residual program only, and the stages before it.
-_LATE = frozenset({"rate", "bandwidth", "targets"})
+_LATE = frozenset({"rate", "bandwidth", "targets", "extras", "libm"})
 _EARLY = frozenset(
     "syntax graph integral derivative equations structure reduced _plant _analysis _shown"
     " verification observers".split()
@@ -87,6 +87,8 @@ class Options(NamedTuple):
     pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
     `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
+    `extras` are files beside the code: `tests`, `exact`, `example`, each in a folder of its own.
+    With `libm` step calls tanh of the mathematical library, else one that is 1e-8 near it.
     """
 
     rate: float = 1000.0
@@ -101,6 +103,8 @@ class Options(NamedTuple):
     parameters: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
     offsets: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
     tuning: Tuning | None = None
+    extras: tuple[str, ...] = ()
+    libm: bool = False
 
 
 if TYPE_CHECKING:
@@ -120,6 +124,8 @@ if TYPE_CHECKING:
         parameters: Mapping[str, float] | tuple[tuple[str, float], ...]
         offsets: Mapping[str, float] | tuple[tuple[str, float], ...]
         tuning: Tuning | None
+        extras: tuple[str, ...]
+        libm: bool
 
 
 class Compilation:
@@ -424,9 +430,12 @@ class Compilation:
         return scenario._replace(instruments=found)
 
     def changes(
-        self, folder: str | os.PathLike[str], targets: Sequence[str] | None = None
+        self,
+        folder: str | os.PathLike[str],
+        targets: Sequence[str] | None = None,
+        extras: Sequence[str] | None = None,
     ) -> tuple[Change, ...]:
-        """What `write` would do below `folder`, file by file, without doing it.
+        """What `write` with the same arguments would do, file by file, without doing it.
 
         >>> import bondgraph
         >>> c = bondgraph.compile("models/dc_motor.bg")
@@ -437,8 +446,7 @@ class Compilation:
 
         if not self.residuals:
             return ()
-        own = self.artifacts if targets is None else self._emitted(tuple(targets))
-        return changes(own, folder)
+        return changes(self._chosen(targets, extras), folder)
 
     @cached_property
     def structure(self) -> StructuralModel:
@@ -680,14 +688,18 @@ class Compilation:
 
         All are text but those of the target `fmu`. Raises `Trouble` where these cannot be compiled.
         """
-        return self._emitted(self.options.targets)
+        return self._emitted(self.options.targets, self.options.extras)
 
     def write(
-        self, folder: str | os.PathLike[str], targets: Sequence[str] | None = None
+        self,
+        folder: str | os.PathLike[str],
+        targets: Sequence[str] | None = None,
+        extras: Sequence[str] | None = None,
     ) -> tuple[str, ...]:
         """Write the files below `folder`, all or none; their paths, with the folder.
 
-        `targets` are the languages, without it those of the options. A model without redundancy
+        `targets` are the languages, `extras` what is written beside the code; without them those of
+        the options. A model without redundancy
         has no files. Files of an earlier call that are as they were written are replaced. Raises
         `ForeignFiles`, with nothing written, where any other file is in the way, OSError if the
         disk refuses, ValueError for a target that is not there.
@@ -697,13 +709,24 @@ class Compilation:
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     paths = c.write(folder, targets=["python"])
         >>> [os.path.basename(path) for path in paths[:3]]
-        ['motor_residuals.py', 'example.py', 'selftest.py']
+        ['motor.py', 'README.md']
         """
         from bondgraph.backends.write import write
 
         if not self.residuals:
             return ()
-        return write(self.artifacts if targets is None else self._emitted(targets), folder)
+        return write(self._chosen(targets, extras), folder)
+
+    def _chosen(
+        self, targets: Sequence[str] | None, extras: Sequence[str] | None
+    ) -> tuple[Artifact | BinaryArtifact, ...]:
+        """The files in these languages with these extras; those of the options without them."""
+        if targets is None and extras is None:
+            return self.artifacts
+        own = self.options
+        return self._emitted(
+            own.targets if targets is None else targets, own.extras if extras is None else extras
+        )
 
     @cached_property
     def runnable_programs(self) -> tuple[Runnable, Runnable | None]:
@@ -846,13 +869,16 @@ class Compilation:
         from bondgraph.passes.lowering.lower import LowerOptions
 
         rate, bandwidth, resolution = self.options[:3]
-        return LowerOptions(rate, bandwidth, resolution=resolution)
+        return LowerOptions(rate, bandwidth, resolution=resolution, libm=self.options.libm)
 
-    def _emitted(self, targets: Sequence[str]) -> tuple[Artifact | BinaryArtifact, ...]:
+    def _emitted(
+        self, targets: Sequence[str], extras: Sequence[str]
+    ) -> tuple[Artifact | BinaryArtifact, ...]:
         from bondgraph.backends.emit import emit
 
         languages = tuple(name for name in targets if name != "fmu")
-        found = emit(self.program, languages, self._bounds, self._tuned) if languages else ()
+        code = self.program, languages, self._bounds, self._tuned, extras
+        found = emit(*code) if languages else ()
         return (*found, *self._fmus) if "fmu" in targets else found
 
     @property
@@ -969,7 +995,7 @@ def compile(
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
     `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`,
-    `parameters`, `offsets`.
+    `parameters`, `offsets`, `extras`, `libm`.
     Nothing is computed before a stage is asked for. Raises `CompileError` if the file cannot be
     read, TypeError for an unknown option, ValueError for a number that is not positive.
 
@@ -1017,7 +1043,7 @@ def _checked(options: Options) -> Options:
     form = options.form
     if isinstance(form, str) and form not in ("derivative", "observer"):
         raise ValueError(f"form is derivative, observer or names of residuals, not {form!r}")
-    for name in ("targets", "decouple"):
+    for name in ("targets", "decouple", "extras"):
         value = getattr(options, name)
         if isinstance(value, str):
             raise TypeError(f"{name} is a sequence of names: [{value!r}]")
@@ -1032,6 +1058,7 @@ def _checked(options: Options) -> Options:
         parameters=tuple(numbers.items()),
         offsets=tuple(offsets.items()),
         targets=tuple(options.targets),
+        extras=tuple(options.extras),
         decouple=tuple(options.decouple),
         form=form if isinstance(form, str) else tuple(form),
     )

@@ -9,6 +9,7 @@ from functools import partial
 from typing import Any, NamedTuple, assert_never
 
 from bondgraph.algebra.interpolation import Points, interpolation
+from bondgraph.algebra.near import near_tanh
 from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.program import (
     Assign,
@@ -20,6 +21,7 @@ from bondgraph.ir.program import (
     Const,
     Dot,
     Expression,
+    First,
     Function,
     Logic,
     Mode,
@@ -192,6 +194,8 @@ class Interpreter:
         power = integer_power(node)
         if power is not None:
             return self.number.power(args[0], power)
+        if node.name == "near_tanh":
+            return near_tanh(args[0], self.number.real, self.number.choose)
         return self.number.functions[node.name](*args)
 
     def _holds(self, node: Condition) -> Any:
@@ -199,6 +203,8 @@ class Interpreter:
         match node:
             case Mode():
                 return self.modes[node.name]
+            case First():
+                raise ValueError("what runs first has a procedure of its own")
             case Compare():
                 left, right = self._value(node.left), self._value(node.right)
                 if node.op == "==":

@@ -9,8 +9,9 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
+from bondgraph.backends.one_procedure import Procedure, heard, one_procedure
 from bondgraph.ir.groups import Groups
-from bondgraph.ir.program import Assignment, Const, Delayed, Program, Ref, flat
+from bondgraph.ir.program import Assignment, Delayed, Program, Ref, flat
 from bondgraph.notation.walk import references
 from bondgraph.text.tuples import NamedTuple
 
@@ -24,7 +25,8 @@ class Block(NamedTuple):
     states: tuple[str, ...]
     first: tuple[Assignment, ...]
     step: tuple[Assignment, ...]
-    begins: str  # what the filter does on its first sample
+    run: Procedure  # both as one
+    heard: frozenset[str]  # the signals that make a residual NaN or infinite if they are
 
 
 class Line(NamedTuple):
@@ -116,8 +118,7 @@ def _block(
     signals = {ref.name for ref in refs if ref.space in _SIGNALS}
     memory = {ref.name for ref in refs if ref.space == "state"}
     few = len(residuals) <= 3
-    zeros = [s for s in first if s.target.space == "residual" and isinstance(s.value, Const)]
-    empty = bool(memory) and len(zeros) == len(residuals)
+    run = one_procedure(first, step)
     return Block(
         "_".join(residuals) if few else f"{residuals[0]}_to_{residuals[-1]}",
         tuple(residuals),
@@ -125,7 +126,8 @@ def _block(
         tuple(sorted(memory & states.keys(), key=states.__getitem__)),
         first,
         step,
-        "nothing is known yet" if empty else "the filter as if it had always been so",
+        run,
+        heard(run),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from bondgraph.backends import decision, listing
 from bondgraph.backends.blocks import Block
@@ -17,116 +17,171 @@ from bondgraph.backends.facts import (
     about_field,
     about_residual,
     exponential,
+    facts,
+    near,
 )
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples, signals
-from bondgraph.backends.procedure_lines import lines, roots, tables
+from bondgraph.backends.nominal_coefficients import Nominal, nominal
+from bondgraph.backends.parts import exact_part, step_part
+from bondgraph.backends.procedure_lines import About, lines, procedure, roots, tables
+from bondgraph.backends.repeated import repeated
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
+from bondgraph.backends.templates import fill
 from bondgraph.backends.vectors import Vectors
 from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.ir.program import (
-    Assignment,
     Const,
     Dot,
+    Field,
+    Mode,
     PolynomialTape,
     Program,
     Ref,
     ResidualInfo,
-    Statement,
 )
 from bondgraph.notation.dialect import CodeSpeller, digits
 from bondgraph.notation.walk import reads
 from bondgraph.text.numerals import joined
 
 #: Helpers of the generated code that need nothing of it, each before those that call it.
-PURE = "sign ssqrt ssq equal min max power table along map inverse root".split()
+PURE = "near_tanh sign ssqrt ssq equal min max power table along map inverse root".split()
 _ARITHMETIC = frozenset({"sign", "ssq", "min", "max"})  # functions that take no library
 
 _SCALED = ";\n * derivative k times time_unit to the power k"
+_ON_STACK = 128  # numbers at most, 1 kB
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 
 
-def holes(
-    program: Program, target: Target, facts: Facts, golden: Golden, tuned: Tuned = UNTUNED
+def files(
+    program: Program,
+    target: Target,
+    golden: Golden,
+    tuned: Tuned = UNTUNED,
+    bounds: Program | None = None,
+    decides: bool = True,
 ) -> dict[str, object]:
-    """Everything that the templates of C leave open."""
+    """The holes of all templates of C but those of `exact`.
+
+    The thresholds `bounds` stand beside the residuals, and take the same parameters and samples.
+    """
+    whole, program = program, step_part(program)
+    about = facts(program)
     spelling = Spelling(program, target)
-    code = Code(program, spelling, facts.stem)
-    stem, unset = facts.stem, any(f.default is None for f in program.params)
-    has_dot = any(isinstance(s, Dot) for s in program.exact)
-    unwritten = any(r.unwritten for r in program.residuals)
-    gaps = "inverse" in facts.laws or any(
-        math.isnan(y) for _, points in program.tables for y in points[0]
+    code = Code(program, spelling, about.stem)
+    codes = [code]
+    if bounds is not None:
+        own = Spelling(bounds, target, spelling)
+        codes.append(Code(bounds, own, facts(bounds).stem, about.stem, "bound_"))
+    every = [facts(c.program) for c in codes]
+    laws = frozenset[str]().union(*(f.laws for f in every))
+    shared = about._replace(
+        laws=laws, beyond_float=tuple(dict.fromkeys(n for f in every for n in f.beyond_float))
     )
-    return {
-        **_limits(program, facts, code),
-        **_Declarations(program, spelling, stem).all(),
-        **code.configure(),
-        **Vectors(program, spelling, golden).c(),
+    found = {
+        **_file(shared, codes, target),
+        **_limits(program, about, code),
+        **_Declarations(codes).all(),
+        **Vectors(whole, Spelling(whole, target), golden).c(),
         **decision.c_holes(program, tuned, target),
-        "stem": stem,
-        "file": facts.file,
-        "noun": facts.noun,
-        "programs": " selftest" if program.bounds else " example selftest",
-        "PREFIX": stem.upper(),
-        "guard": f"{stem.upper()}_RESIDUALS_H",
-        "abi": ABI,
+        "noun": about.noun,
         "digest": program.digest,
-        "about": about(program, target, facts),
-        "model": listing.harmless(program.name, target),
-        "unset": " (NaN where the model has none)" if unset else "",
-        "helpers": _helpers(program, facts, spelling, has_dot, code),
-        "tables": tables(program, spelling, "{{{0}}}", code.number),
-        "roots": roots(program, spelling, "real {0}", 8),
-        "needs_functions": needs_library(facts),
-        "libm": " -lm" if needs_library(facts) else "",
-        "needs_math": needs_library(facts) or unset or unwritten or bool(program.roots) or gaps
-        or bool(spelling.lines),
-        "unwritten": unwritten,
-        "needs_stddef": bool(program.tables) or has_dot or bool(code.tapes),
-        "beyond_float": ", ".join(f"{n:g}" for n in facts.beyond_float[:8]),
-        "exact": code.exact(),
-        "blocks": [code.block(k, b) for k, b in enumerate(spelling.blocks)],
-        "block_count": max(1, len(spelling.blocks)),
-        "block_names": listing.comment(
-            "samples since the start of "
-            + ("; ".join(joined(b.residuals) for b in spelling.blocks) or "nothing"),
-            target,
-            4,
-        ),
-        "unavailable": code.unavailable(),
-        "opens": any(o.modes for o in program.openings),
-        "lines": list(range(len(spelling.lines))),
-        "recall": _recall(program, spelling),
-        "ages": [
-            f"monitor->p.back_{k}_{j} = {code.real(past.seconds)} / sample_time;"
-            for k, line in enumerate(spelling.lines.values())
-            for j, past in enumerate(line.past)
-        ],
+        "about": header(program, target, about, bounds is not None),
+        "own": about.stem,
+        "of": "",
+        "settles": any(not r.unavailable for c in codes for r in c.program.residuals),
+        "bounded": bounds is not None,
     }
+    found["decides"] = bool(found["decides"]) and decides
+    cores = [one.core() for one in codes]
+    found["constants"] = cores[0]["constants"]
+    for name, core in zip(("residuals", "thresholds"), cores, strict=False):
+        holes = found | core
+        found[f"{name}_header"] = fill("c/core.h.j2", holes).rstrip("\n")
+        found[f"{name}_code"] = fill("c/core.c.j2", holes).rstrip("\n")
+    return {"thresholds_header": "", "thresholds_code": "", **found}
 
 
-def _recall(program: Program, spelling: Spelling) -> list[str]:
-    """How step makes its signals from a sample."""
-    found = [f"s->{m.name} = samples->{m.name};" for m in samples(program, spelling)]
-    for k, (name, line) in enumerate(spelling.lines.items()):
-        place = f"p->past_{k}, {line.length}u, {{0}}p->next_{k}"
-        found.append(f"remember({place.format('&')}, s->{spelling.knowns[name]});")
-        found += [
-            f"s->{spelling.knowns[past.known.name]} = "
-            f"recalled({place.format('')}, p->back_{k}_{j});"
-            for j, past in enumerate(line.past)
-        ]
+def tests(
+    bounds: Program, program: Program, target: Target, golden: Golden, base: Golden
+) -> dict[str, object]:
+    """The holes of the templates of `tests` for thresholds; `base` belongs to the residuals."""
+    spelling = Spelling(step_part(program), target)
+    own = Spelling(bounds, target, spelling)
+    found = Vectors(bounds, own, golden, (program, base)).c()
+    return found | {"own": facts(bounds).stem, "noun": "thresholds", "of": "_thresholds"}
+
+
+def exact(program: Program, target: Target) -> dict[str, object]:
+    """The holes of the templates of `exact`."""
+    spelling = Spelling(program, target)
+    part = exact_part(program)
+    own = Spelling(part, target, spelling)
+    about = facts(part)
+    code = Code(part, own, f"{about.stem}_exact", about.stem)
+    core = code.core()
+    declared = _Declarations([code])
+    found = {
+        **_file(about, [code], target),
+        "time_unit": digits(program.time_unit),
+        "derivatives": declared.struct(derivatives(part, own)),
+        "derivative_scale": "" if program.time_unit == 1.0 else _SCALED,
+        "coefficients": core["coefficients"] or ["    char unused;"],
+        "coefficients_code": fill("c/coefficients.c.j2", core).rstrip("\n"),
+        "coefficient_values": core["coefficient_values"],
+        "exact": code.exact(),
+    }
     return found
 
 
-def about(program: Program, target: Target, facts: Facts) -> list[str]:
+def _file(about: Facts, codes: list[Code], target: Target) -> dict[str, object]:
+    """What every file with code needs: its helpers, its tables, what it includes."""
+    code = codes[0]
+    program, stem = code.program, about.stem
+    unset = any(f.default is None for c in codes for f in c.program.params)
+    unwritten = any(r.unwritten for r in program.residuals)
+    rows = [t for c in codes for t in tables(c.program, c.spelling, "{{{0}}}", c.number)]
+    shown = [r for c in codes for r in roots(c.program, c.spelling, "real {0}", 8)]
+    dots = any(isinstance(s, Dot) for s in program.exact)
+    gaps = "inverse" in about.laws or any(
+        math.isnan(y) for c in codes for _, points in c.program.tables for y in points[0]
+    )
+    lines = any(c.spelling.lines for c in codes)
+    return {
+        "stem": stem,
+        "file": about.file,
+        "PREFIX": stem.upper(),
+        "guard": f"{stem.upper()}_H",
+        "abi": ABI,
+        "near": near(),
+        "model": listing.harmless(program.name, target),
+        "unset": " (NaN where the model has none)" if unset else "",
+        "helpers": _helpers(about, codes, dots),
+        "tables": list({r["name"]: r for r in rows}.values()),
+        "roots": list({r["name"]: r for r in shown}.values()),
+        "needs_functions": needs_library(about),
+        "libm": " -lm" if needs_library(about) else "",
+        "needs_math": needs_library(facts(program)) or unset or bool(shown) or gaps or lines
+        or (unwritten and not program.step),
+        "thresholds_need_math": needs_library(about),
+        "unwritten": unwritten,
+        "needs_stddef": bool(rows) or dots or any(c.tapes for c in codes),
+        "beyond_float": ", ".join(f"{n:g}" for n in about.beyond_float[:8]),
+        "opens": any(o.modes for o in program.openings),
+        "parameters_are_finite": code.parameters_are_finite(),
+        "nominal": code.nominal(codes),
+    }
+
+
+def header(program: Program, target: Target, facts: Facts, bounded: bool) -> list[str]:
     """The lines of the first comment of the header."""
     title = listing.harmless(program.title, target)
     source = listing.harmless(program.source, target)
     name = listing.harmless(program.name, target)
     first = f"residuals of the model {name}, near zero while the machine is well."
+    if bounded:
+        first += " With thresholds: how far they may be from it."
     if program.bounds:
         of = listing.harmless(program.bounds, target)
         first = f"thresholds for the residuals of the model {of}, in structs of the same form."
@@ -151,7 +206,6 @@ def _limits(program: Program, facts: Facts, code: Code) -> dict[str, object]:
     return {
         "sample_time": digits(1.0 / program.rate),
         "bandwidth": digits(program.bandwidth),
-        "time_unit": digits(program.time_unit),
         "slowest": digits(SLOWEST),
         "slowest_float": digits(SLOWEST_FLOAT),
         "fastest": digits(facts.fastest),
@@ -162,82 +216,52 @@ def _limits(program: Program, facts: Facts, code: Code) -> dict[str, object]:
 
 
 class _Declarations:
-    """The structs and the list of residuals."""
+    """The structs that the programs of a file share, and the list of residuals."""
 
-    def __init__(self, program: Program, spelling: Spelling, stem: str) -> None:
-        self.program = program
-        self.spelling = spelling
-        self.stem = stem
-        self.real = f"{stem}_real"
+    def __init__(self, codes: list[Code]) -> None:
+        self.codes = codes
+        self.program, self.spelling = codes[0].program, codes[0].spelling
+        self.stem = codes[0].base
+        self.real = f"{self.stem}_real"
 
     def all(self) -> dict[str, object]:
-        """The holes of structs.h.j2."""
+        """The holes of signals.h.j2 and of the enum of residuals."""
         program, spelling, real = self.program, self.spelling, self.real
         numbers = [
             (f"{spelling.prefix}{spelling.numbers[r.name]} = {k},", about_residual(r))
             for k, r in enumerate(program.residuals)
         ]
         parameters = [
-            (f"{real} {spelling.params[f.name]};", about_field(f)) for f in program.params
+            (f"{real} {spelling.params[f.name]};", about_field(f))
+            for f in parameters_of(self.codes)
         ]
         return {
-            "residual_numbers": self._members(numbers),
+            "residual_numbers": self.members(numbers),
             "residual_count": len(program.residuals),
-            "parameters": self._members(parameters or [_empty("the code reads no parameters")]),
-            "samples": self._struct(samples(program, spelling)),
-            "signals": self._struct(signals(program, spelling)),
-            "taken": "signals" if spelling.lines else "samples",
-            "derivatives": self._struct(derivatives(program, spelling)),
-            "derivative_scale": "" if program.time_unit == 1.0 else _SCALED,
-            "parts": self._parts(),
-            "encoders": bool(spelling.encoders),
+            "parameters": self.members(parameters or [_empty("the code reads no parameters")]),
+            "samples": self.struct(samples(program, spelling)),
+            "encoders": any(c.spelling.encoders for c in self.codes),
         }
 
-    def _members(self, pairs: list[tuple[str, str]]) -> list[str]:
+    def members(self, pairs: list[tuple[str, str]]) -> list[str]:
+        """Members of a struct, with what they are."""
         return listing.members(pairs, self.spelling.target, 4)
 
-    def _struct(self, found: Iterable[Member]) -> list[str]:
+    def struct(self, found: Iterable[Member]) -> list[str]:
+        """Signals as members of a struct."""
         types = {"real": self.real, "bool": "bool", "count": "int32_t"}
         pairs = [
             (f"{types[m.type]} {m.name}{f'[{m.size}]' if m.size else ''};", m.text) for m in found
         ]
-        return self._members(pairs or [_empty("the model has no signals")])
+        return self.members(pairs or [_empty("the model has no signals")])
 
-    def _past(self) -> list[tuple[str, str]]:
-        """The memory of each line: its samples, the place of the next, and how far back to go."""
-        found = []
-        for k, (name, line) in enumerate(self.spelling.lines.items()):
-            found.append((f"{self.real} past_{k}[{line.length}];", f"samples of {name}"))
-            found.append((f"uint32_t next_{k};", "the place of the next"))
-            found += [
-                (f"{self.real} back_{k}_{j};", f"samples, {past.seconds:g} s")
-                for j, past in enumerate(line.past)
-            ]
-        return found
 
-    def _parts(self) -> list[dict[str, object]]:
-        spelling, real = self.spelling, self.real
-        coefs = [
-            (f"{real} {spelling.coefs[f.name]}{f'[{f.size}]' if f.size else ''};", f.doc)
-            for f in self.program.coefs
-        ]
-        states = [(f"{real} {spelling.states[f.name]};", f.doc) for f in self.program.states]
-        members = {b.name: joined(b.residuals) for b in spelling.blocks}
-        encoders = [
-            (f"{self.stem}_encoder {name};", f"{signal}, read by {members[block]}")
-            for (block, signal), name in spelling.encoders.items()
-        ]
-        parts = (
-            ("coefficients", "c", "What configure computes from the parameters.", coefs),
-            ("memory", "x", "What the filters remember from sample to sample.", states),
-            ("encoders", "e", "The encoders, each with the residuals that read it.", encoders),
-            ("past", "p", "The last samples of signals that are needed late.", self._past()),
-        )
-        return [
-            {"name": name, "member": member, "doc": doc, "lines": self._members(pairs)}
-            for name, member, doc, pairs in parts
-            if pairs
-        ]
+def parameters_of(codes: list[Code]) -> list[Field]:
+    """The parameters of all programs of a file, those of the first one first."""
+    found: dict[str, Field] = {}
+    for field in (f for code in codes for f in code.program.params):
+        found.setdefault(field.name, field)
+    return list(found.values())
 
 
 def needs_library(facts: Facts) -> bool:
@@ -249,97 +273,199 @@ def _empty(what: str) -> tuple[str, str]:
     return "char unused;", what
 
 
-def _helpers(
-    program: Program, facts: Facts, spelling: Spelling, has_dot: bool, code: Code
-) -> list[str]:
-    found = [name for name in PURE if name in facts.laws]
+def _helpers(about: Facts, codes: list[Code], has_dot: bool) -> list[str]:
+    found = [name for name in PURE if name in about.laws]
     wanted = {
-        "exponential": exponential(program),
+        "exponential": any(exponential(c.program) for c in codes),
         "dot": has_dot,
-        "tape": bool(code.tapes),
-        "encoder": bool(spelling.encoders),
-        "line": bool(spelling.lines),
+        "tape": any(c.tapes for c in codes),
+        "encoder": any(c.spelling.encoders for c in codes),
+        "line": any(c.spelling.lines for c in codes),
     }
     return found + [name for name, needed in wanted.items() if needed]
 
 
 class Code:
-    """Writes configure, exact and step of one program; `stem` begins every name."""
+    """Writes configure, exact and step of one program; `stem` begins the names of its functions.
 
-    def __init__(self, program: Program, spelling: Spelling, stem: str) -> None:
+    `base` begins those of what it shares with others in the same file, `own` those of static
+    functions that another program has as well.
+    """
+
+    def __init__(
+        self, program: Program, spelling: Spelling, stem: str, base: str = "", own: str = ""
+    ) -> None:
         self.program = program
         self.spelling = spelling
         self.target = spelling.target
-        self.stem = stem
-        self._configure = CodeSpeller(self.target.configure, spelling.value, spelling.tables)
+        self.stem, self.base, self.own = stem, base or stem, own
+        self.type = f"{self.base}_real"
+        self._configure = CodeSpeller(self.target.configure, self._in_configure, spelling.tables)
+
+    def _in_configure(self, ref: Ref | Mode) -> str:
+        if ref == Ref("option", "time_unit") and not self.stem.endswith("_exact"):
+            return self.real(self.program.time_unit)  # scales what cancels in step
+        return self.spelling.value(ref)
 
     def real(self, value: float) -> str:
         """A number as a constant of the type `real`."""
         return self._configure.expression(Const(value))
 
-    # -------------------------------------------------------------------- configure
-
     def number(self, value: float) -> str:
         """A number, or none, as C has it."""
         return "(real)NAN" if math.isnan(value) else self.real(value)
 
-    def configure(self) -> dict[str, object]:
-        """The holes of configure.c.j2."""
+    def core(self) -> dict[str, object]:
+        """The holes of core.h.j2 and core.c.j2."""
         program, spelling = self.program, self.spelling
-        params = [f"p->{spelling.params[f.name]}" for f in program.params]
+        past = spelling.lines.values()
+        return {
+            **self._coefficient_lines(),
+            **self._structs(),
+            **self._counting(),
+            "stem": self.stem,
+            "base": self.base,
+            "own": self.own,
+            "run": "bound" if self.own else "run",
+            "bounds": program.bounds,
+            "noun": "thresholds" if program.bounds else "residuals",
+            "tapes": [self._tape_table(t) for t in self.tapes],
+            "blocks": [self._block(k, b) for k, b in enumerate(spelling.blocks)],
+            "block_count": max(1, len(spelling.blocks)),
+            "block_names": listing.comment(
+                "samples since the start of "
+                + ("; ".join(joined(b.residuals) for b in spelling.blocks) or "nothing"),
+                self.target,
+                4,
+            ),
+            "unavailable": self._unavailable(),
+            "lines": list(range(len(spelling.lines))),
+            "recall": self._recall(),
+            "ages": [
+                f"c->back_{k}_{j} = {self.real(one.seconds)} / sample_time;"
+                for k, line in enumerate(past)
+                for j, one in enumerate(line.past)
+            ],
+        }
+
+    # -------------------------------------------------------------------- structs
+
+    def _structs(self) -> dict[str, object]:
+        program, spelling, real = self.program, self.spelling, self.type
         coefs = [
-            f"monitor->c.{spelling.coefs[f.name]}{'[0]' if f.size else ''}" for f in program.coefs
+            (f"{real} {spelling.coefs[f.name]}{f'[{f.size}]' if f.size else ''};", f.doc)
+            for f in program.coefs
         ]
-        head = self._pointers(program.configure, "c")
+        states = [(f"{real} {spelling.states[f.name]};", f.doc) for f in program.states]
+        encoders = [
+            (f"{self.base}_encoder {name};", f"{signal}, read by {joined(block.residuals)}")
+            for block in spelling.blocks
+            for (of, signal), name in spelling.encoders.items()
+            if of == block.name
+        ]
+        past: list[tuple[str, str]] = []
+        for k, (name, line) in enumerate(spelling.lines.items()):
+            past.append((f"{real} past_{k}[{line.length}];", f"samples of {name}"))
+            past.append((f"uint32_t next_{k};", "the place of the next"))
+            coefs += [
+                (f"{real} back_{k}_{j};", f"{one.seconds:g} s in samples")
+                for j, one in enumerate(line.past)
+            ]
+        parts = (
+            ("encoders", "e", "The encoders, each with the residuals that read it.", encoders),
+            ("past", "p", "The last samples of signals that are needed late.", past),
+        )
+        declared = _Declarations([self])
+        found = None if self._work() else nominal(program)
+        coefs += self._work()
+        return {
+            "coefficients": declared.members(coefs),
+            "memory": declared.members(states),
+            "parts": [
+                {"name": name, "member": member, "doc": doc, "lines": declared.members(pairs)}
+                for name, member, doc, pairs in parts
+                if pairs
+            ],
+            "signals": declared.struct(signals(program, spelling)),
+            "taken": f"{self.stem}_signals" if spelling.lines else f"{self.base}_samples",
+            "constants": [] if found is None else self._constants(found),
+        }
+
+    def _constants(self, found: Nominal) -> list[str]:
+        """The coefficients at the model's own parameters, as the value of their struct."""
+        pairs = []
+        for field, values in zip(self.program.coefs, found.coefficients, strict=True):
+            name = self.spelling.coefs[field.name]
+            if field.size:
+                pairs.append((f"{{{', '.join(map(self._constant, values))}}},", name))
+            else:
+                pairs.append((f"{self._constant(values[0])},", name))
+        pairs += [(f"{self._constant(back)},", "a delay in samples") for back in found.back]
+        ages = ", ".join("UINT32_MAX" if n is None else f"{n}u" for n in found.settle)
+        pairs.append((f"{{{ages}}},", "samples until each is valid"))
+        known = [n for n in found.settle if n is not None]
+        pairs.append((f"{max(known)}u" if known else "UINT32_MAX", "the longest of these"))
+        return listing.members(pairs, self.target, 4)
+
+    def _constant(self, value: float) -> str:
+        return self.real(value)
+
+    # -------------------------------------------------------------------- configure
+
+    def _coefficient_lines(self) -> dict[str, object]:
+        program, spelling = self.program, self.spelling
+        coefs = [f"c->{spelling.coefs[f.name]}{'[0]' if f.size else ''}" for f in program.coefs]
+        read = reads(program.configure)
+        pairs = [(f"{self.stem}_coefficients *c", "c")]
+        if any(ref.space == "param" for ref in read):
+            pairs.append((f"const {self.base}_parameters *p", "parameters"))
+        used = {ref.name for ref in read if ref.space == "option"}
+        if not self.stem.endswith("_exact"):
+            used -= {"time_unit"}
+        pairs += [(f"real {name}", name) for name in _OPTIONS if name in used]
+        head = f"static void {self.own}compute_coefficients({{0}})"
         body = lines(program.configure, spelling, self._configure, 4, self._tape)
         return {
-            "nominal": self._nominal(),
-            "tapes": [self._tape_table(t) for t in self.tapes],
-            **self._coefficient_arguments(),
-            "configure": [*head, *body] if body else head[:-1],
-            "parameters_are_finite": self._finite(params, "p"),
-            "coefficients_are_finite": self._finite(coefs, "monitor"),
+            "coefficient_head": listing.statement(
+                head, ", ".join(a for a, _ in pairs), self.target, 0
+            ),
+            "coefficient_values": ", ".join(v for _, v in pairs),
+            "configure": body or ["    (void)c;"],
+            "coefficients_are_finite": self._finite("return", coefs, "c"),
             "settle": [
                 line for r in program.residuals if not r.unavailable for line in self._settle(r)
             ],
         }
 
     def _settle(self, info: ResidualInfo) -> list[str]:
-        prefix = f"monitor->settle[{self._number(info.name)}] ="
+        prefix = f"c->settle[{self._number(info.name)}] ="
         call = f"samples({self.real(info.settle)}, sample_time, bandwidth);"
         if len(prefix) + len(call) + 5 <= self.target.width:
             return [f"    {prefix} {call}"]
         return [f"    {prefix}", f"        {call}"]
 
-    def _coefficient_arguments(self) -> dict[str, object]:
-        read = reads(self.program.configure)
-        pairs = [(f"{self.stem}_monitor *monitor", "monitor")]
-        if any(ref.space == "param" for ref in read):
-            pairs.append((f"const {self.stem}_parameters *p", "parameters"))
-        used = {ref.name for ref in read if ref.space == "option"}
-        pairs += [(f"real {name}", name) for name in _OPTIONS if name in used]
-        head = "static void compute_coefficients({0})"
-        return {
-            "coefficient_head": listing.statement(
-                head, ", ".join(a for a, _ in pairs), self.target, 0
-            ),
-            "coefficient_values": ", ".join(v for _, v in pairs),
-        }
-
-    def _nominal(self) -> list[str]:
+    def nominal(self, codes: list[Code]) -> list[str]:
+        """The body of the function that sets the parameters to those of the model."""
         pairs: list[tuple[str, str]] = []
-        for field in self.program.params:
+        for field in parameters_of(codes):
             value = "(real)NAN" if field.default is None else self.real(field.default)
             unit = field.unit if field.default is not None else f"{field.unit} yours to set"
             name = self.spelling.params[field.name]
             pairs.append((f"parameters->{name} = {value};", unit.strip()))
         return listing.members(pairs, self.target, 4) if pairs else ["    (void)parameters;"]
 
-    def _finite(self, names: list[str], unused: str) -> list[str]:
+    def parameters_are_finite(self) -> list[str]:
+        """Whether all parameters are numbers, as a statement."""
+        params = [f"p->{self.spelling.params[f.name]}" for f in self.program.params]
+        return self._finite("const bool finite =", params, "p")
+
+    def _finite(self, prefix: str, names: list[str], unused: str) -> list[str]:
         if not names:
-            return [f"    (void){unused};", "    return true;"]
+            before = [] if prefix != "return" else [f"    (void){unused};"]
+            after = [] if prefix == "return" else [f"    (void){unused};"]
+            return [*before, f"    {prefix} true;", *after]
         total = " + ".join(names)
-        return listing.statement("return finite_number({0});", total, self.target, 4)
+        return listing.statement(f"{prefix} finite_number({{0}});", total, self.target, 4)
 
     # ------------------------------------------------------------------------- tapes
 
@@ -349,9 +475,10 @@ class Code:
         return [s for s in self.program.configure if isinstance(s, PolynomialTape)]
 
     def _tape_table(self, tape: PolynomialTape) -> dict[str, object]:
+        ops, runs = repeated(tape.ops)
         rows = [
             f"{{{o.target}, {o.source}, {o.shift}, {o.scale}, {o.length}, {str(o.fresh).lower()}}}"
-            for o in tape.ops
+            for o in ops
         ]
         why = listing.words(listing.place(tape.origin), tape.comment or tape.residual)
         return {
@@ -359,24 +486,45 @@ class Code:
             "name": f"{tape.residual}_tape",
             "length": len(rows),
             "lines": listing.table(rows, self.target, 4),
+            "run_count": len(runs),
+            "runs": listing.table([f"{{{', '.join(map(str, r))}}}" for r in runs], self.target, 4),
         }
 
     def _tape(self, tape: PolynomialTape, speller: CodeSpeller) -> list[str]:
         scales = [speller.expression(s) for s in tape.scales]
         coef = self.target.reference["coef"]
-        body = [
-            "const real scales[] = {",
-            *listing.table(scales, self.target, 4),
-            "};",
-            f"real rows[{tape.rows * tape.length}]; /* on the stack, only here */",
-            "",
-            f"run_tape({tape.residual}_tape, {len(tape.ops)}, scales, rows, {tape.rows},"
-            f" {tape.length});",
+        size, name = tape.rows * tape.length, f"{tape.residual}_tape"
+        if _work(tape):
+            body = [
+                f"real *rows = c->{tape.residual}_work;",
+                f"real *scales = rows + {size};",
+                "",
+                *[f"scales[{k}] = {scale};" for k, scale in enumerate(scales)],
+            ]
+        else:
+            body = [
+                "const real scales[] = {",
+                *listing.table(scales, self.target, 4),
+                "};",
+                f"real rows[{size}];",
+                "",
+            ]
+        body += [
+            f"run_tape({name}, {name}_runs, {len(repeated(tape.ops)[1])}, scales, rows,"
+            f" {tape.rows}, {tape.length});",
         ]
         for output in tape.outputs:
             array = coef.format(self.spelling.coefs[output.array])
             body.append(f"keep({array}, &rows[{output.row * tape.length}], {output.length});")
         return ["    {", *[f"        {line}" if line else "" for line in body], "    }"]
+
+    def _work(self) -> list[tuple[str, str]]:
+        """What configure needs that is too large for a stack, as members of the coefficients."""
+        return [
+            (f"{self.type} {tape.residual}_work[{size}];", "for configure")
+            for tape in self.tapes
+            if (size := _work(tape))
+        ]
 
     # ---------------------------------------------------------------- exact and step
 
@@ -387,11 +535,11 @@ class Code:
         head: list[str] = []
         unused: list[str] = []
         if "coef" in spaces:
-            head.append(f"    const {self.stem}_coefficients *c = &monitor->c;")
+            head.append(f"    const {self.stem}_coefficients *c = coefficients;")
         else:
-            unused.append("    (void)monitor;")
+            unused.append("    (void)coefficients;")
         if spaces & {"known", "start", "integral", "time"}:
-            head.append(f"    const {self.stem}_derivatives *d = derivatives;")
+            head.append(f"    const {self.base}_derivatives *d = derivatives;")
         else:
             unused.append("    (void)derivatives;")
         head.append("    real *r = residuals;")
@@ -403,73 +551,90 @@ class Code:
                 body.append(f"    r[{self._number(info.name)}] = (real)NAN;")
         return [*head, *([""] if unused else []), *unused, "", *body]
 
-    def block(self, number: int, block: Block) -> dict[str, object]:
+    def _recall(self) -> list[str]:
+        """How step makes its signals from a sample."""
+        spelling = self.spelling
+        found = [f"s->{m.name} = samples->{m.name};" for m in samples(self.program, spelling)]
+        for k, (name, line) in enumerate(spelling.lines.items()):
+            place = f"p->past_{k}, {line.length}u, {{0}}p->next_{k}"
+            found.append(f"remember({place.format('&')}, s->{spelling.knowns[name]});")
+            found += [
+                f"s->{spelling.knowns[one.known.name]} = "
+                f"recalled({place.format('')}, c->back_{k}_{j});"
+                for j, one in enumerate(line.past)
+            ]
+        return found
+
+    def _block(self, number: int, block: Block) -> dict[str, object]:
         """The holes of block.c.j2."""
-        samples = [f"s->{name}" for name in self.spelling.measured(block)]
-        numbers = [self._number(r) for r in block.residuals]
-        results = [f"r[{number}]" for number in numbers]
+        spelling, target = self.spelling, self.target
+        infos = [r for r in self.program.residuals if r.name in block.residuals]
+        about = block_about(infos)
+        speller = CodeSpeller(
+            target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
+        )
+        counts = spelling.counted(block)
+        spaces = {ref.space for ref in reads((*block.first, *block.step))}
+        head = []
+        if block.run.asks or counts:
+            head.append(f"const bool first = x->youngest == 0u && x->age[{number}] == 0u;")
+        if spaces & {"increment", "total"}:
+            head.append(f"const {self.stem}_encoders *e = &x->e;")
+        run = [f"    count_on(&x->e.{memory}, s->{member}, first);" for memory, member in counts]
+        run += [""] if run else []
+        unused = [name for name, is_used in (
+            ("c", "coef" in spaces), ("x", "state" in spaces or bool(head) or bool(counts)),
+            ("s", bool(block.knowns)),
+        ) if not is_used]  # fmt: skip
+        if unused:
+            run = [*(f"    (void){name};" for name in unused), "", *run]
+        title = f"{joined(block.residuals)} on one sample."
         return {
             "name": block.name,
             "number": number,
-            "title": joined(block.residuals),
-            "begins": block.begins,
-            "first": self._run(block, block.first, "count_from"),
-            "step": self._run(block, block.step, "count_on"),
-            "numbers": numbers,
-            "valid": [self._valid(r) for r in block.residuals],
-            "finite": self._if_finite([*samples, *results]),
+            "comment": listing.comment("\n".join([title, *block_text(infos)]), target, 0),
+            "head": head,
+            "run": [*run, *procedure(block.run, spelling, speller, 4, about)],
         }
 
-    def _valid(self, residual: str) -> str:
-        number = self._number(residual)
-        progress = self.spelling.progress.get(residual)
-        begun = "" if progress is None else f" && monitor->x.{progress} >= {self.real(1.0)}"
-        return f"residuals->valid[{number}] = age > monitor->settle[{number}]{begun};"
-
-    def _if_finite(self, names: list[str]) -> list[str]:
-        test = "if (finite_number({0})) \1"
-        rows = listing.statement(test, " + ".join(names), self.target, 4)
-        return [row.replace("\1", "{") for row in rows]
-
-    def _run(self, block: Block, statements: tuple[Assignment, ...], count: str) -> list[str]:
-        spelling = self.spelling
-        speller = CodeSpeller(
-            self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
-        )
-        counts = [
-            f"    {count}(&monitor->e.{memory}, s->{member});"
-            for memory, member in spelling.counted(block)
+    def _counting(self) -> dict[str, object]:
+        """The holes of count.c.j2: what is computed, what goes with what, what has to be finite."""
+        spelling, target = self.spelling, self.target
+        blocks = spelling.blocks
+        places = {r: at for at, block in enumerate(blocks) for r in block.residuals}
+        order = {r.name: at for at, r in enumerate(self.program.residuals)}
+        computed = [name for name in order if name in places]
+        unheard = [[f"s->{name}" for name in spelling.unheard(block)] for block in blocks]
+        starts = []
+        for at, names in enumerate(unheard):
+            value = f"finite_number({' + '.join(names)})" if names else "true"
+            starts += listing.statement(f"finite[{at}] = {{0}};", value, target, 4)
+        progress = [
+            f"out->valid[{self._number(r)}] = out->valid[{self._number(r)}]"
+            f" && x->{state} >= {self.real(1.0)};"
+            for r, state in spelling.progress.items()
         ]
-        head = self._pointers(statements, "cxe", bool(counts))
-        if counts:
-            counts.append("")
-        return [*head, *counts, *lines(statements, spelling, speller, 4)]
+        whole = len(computed) == len(order) and not progress
+        names = [f"r[{self._number(r)}]" for r in computed] + [n for ns in unheard for n in ns]
+        usual = "if (x->youngest > c->longest && finite_number({0})) \1"
+        rows = listing.statement(usual, " + ".join(names), target, 4)
+        longest = max(
+            (r for r in self.program.residuals if not r.unavailable),
+            key=lambda r: r.settle, default=None,
+        )  # fmt: skip
+        return {
+            "index_type": "uint8_t" if len(order) < 256 else "uint16_t",
+            "numbers": listing.table([str(order[r]) for r in computed], target, 8),
+            "block_of": listing.table([str(places[r]) for r in computed], target, 8),
+            "computed": len(computed),
+            "unheard": starts,
+            "hears": any(unheard),
+            "progress": progress,
+            "usual": [row.replace("\1", "{") for row in rows] if whole else [],
+            "longest": "" if longest is None else f"c->settle[{self._number(longest.name)}]",
+        }
 
-    def _pointers(
-        self, statements: Iterable[Statement], members: str, counts: bool = False
-    ) -> list[str]:
-        """Short names for the parts of the monitor that the statements use."""
-        found = reads(statements)
-        spaces = {ref.space for ref in found}
-        head: list[str] = []
-        if "coef" in spaces:
-            fixed = "" if members == "c" else "const "
-            head.append(f"    {fixed}{self.stem}_coefficients *c = &monitor->c;")
-        if "state" in spaces and "x" in members:
-            head.append(f"    {self.stem}_memory *x = &monitor->x;")
-        if spaces & {"increment", "total"}:
-            head.append(f"    const {self.stem}_encoders *e = &monitor->e;")
-        unused: list[str] = []
-        if not head and not counts:
-            unused.append("    (void)monitor;")
-        if "x" in members and not counts and not _samples(found):
-            unused.append("    (void)s;")
-        if head and unused:
-            head.append("")
-        head += unused
-        return [*head, ""] if head else []
-
-    def unavailable(self) -> list[str]:
+    def _unavailable(self) -> list[str]:
         """The numbers of the residuals that step never computes."""
         owned = {r for block in self.spelling.blocks for r in block.residuals}
         return [self._number(r.name) for r in self.program.residuals if r.name not in owned]
@@ -478,5 +643,19 @@ class Code:
         return self.spelling.prefix + self.spelling.numbers[residual]
 
 
-def _samples(refs: Iterable[Ref]) -> bool:
-    return any(ref.space == "known" for ref in refs)
+def _work(tape: PolynomialTape) -> int:
+    """The numbers that a tape needs besides its results, 0 where a stack can hold them."""
+    size = tape.rows * tape.length + len(tape.scales)
+    return size if size > _ON_STACK else 0
+
+
+def block_about(infos: Sequence[ResidualInfo]) -> About:
+    """What the comments of a block need not say, since the one above it does."""
+    info = infos[0]
+    place = listing.place(info.origin)
+    return About(place, info.text, f"{info.name}: ") if len(infos) == 1 else About("", "", "")
+
+
+def block_text(infos: Sequence[ResidualInfo]) -> list[str]:
+    """What a block computes: each residual with its place in the model."""
+    return [listing.words(listing.place(r.origin), r.text or r.name) for r in infos]

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from bondgraph.backends import c, python
 from bondgraph.backends.decision import UNTUNED, Tuned
-from bondgraph.backends.facts import Facts, facts
-from bondgraph.backends.golden import golden
+from bondgraph.backends.facts import facts
+from bondgraph.backends.golden import Golden, golden
 from bondgraph.backends.readme import readme
-from bondgraph.backends.target import load
+from bondgraph.backends.target import Target, load
 from bondgraph.backends.templates import fill
 from bondgraph.ir.artifact import Artifact
 from bondgraph.ir.program import Program
 
-_HOLES = {"c": c.holes, "python": python.holes}
-_EXAMPLES = {"c": "example.c", "python": "example.py"}
+_LANGUAGES = {"c": c, "python": python}
 
-
-#: Where the thresholds go, and what only the residuals have.
-_THRESHOLD, _ONCE = "threshold", ("example.c", "example.py")
+#: What there is beside the code, each in a folder of its own.
+EXTRAS = ("tests", "exact", "example")
 
 
 def emit(
@@ -25,37 +25,57 @@ def emit(
     targets: tuple[str, ...],
     thresholds: Program | None = None,
     tuned: Tuned = UNTUNED,
+    extras: Iterable[str] = (),
 ) -> tuple[Artifact, ...]:
     """The files of `program` in the `targets` (`c`, `python`), and a README about them.
 
-    The files of `thresholds` go to a folder of their own. Limits that were `tuned` go with
-    `diagnose`. The same program gives the same bytes.
-    Raises ValueError for a target that is not there.
+    Adaptive `thresholds` are in the same files, limits that were `tuned` go with `diagnose`.
+    `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`. The
+    same program gives the same bytes. Raises ValueError for a target or an extra that is not there.
     """
+    wanted = tuple(name for name in EXTRAS if name in extras)
+    if unknown := [name for name in extras if name not in EXTRAS]:
+        raise ValueError(f"nothing extra is called {unknown[0]!r}; there are {', '.join(EXTRAS)}")
     about = facts(program)
-    found = _files(program, targets, about, thresholds is not None, tuned)
-    examples = {name: found[_EXAMPLES[name]] for name in dict.fromkeys(targets)}
-    found["README.md"] = fill("README.md.j2", readme(program, about, examples, thresholds))
-    if thresholds is not None:
-        bounds = _files(thresholds, targets, facts(thresholds), False)
-        found |= {f"{_THRESHOLD}/{path}": text for path, text in bounds.items()}
+    found: dict[str, str] = {}
+    examples: dict[str, str] = {}
+    for name in dict.fromkeys(targets):
+        files = _files(program, load(name), thresholds, tuned, wanted)
+        found |= files
+        if "example" in wanted:
+            examples[name] = files[load(name).extras["example"][0][1]]
+    holes = readme(program, about, tuple(dict.fromkeys(targets)), examples, thresholds, wanted)
+    found["README.md"] = fill("README.md.j2", holes)
     return tuple(Artifact(path, text) for path, text in found.items())
 
 
 def _files(
     program: Program,
-    targets: tuple[str, ...],
-    about: Facts,
-    bounded: bool,
-    tuned: Tuned = UNTUNED,
+    target: Target,
+    thresholds: Program | None,
+    tuned: Tuned,
+    extras: tuple[str, ...],
 ) -> dict[str, str]:
-    """The code of a program in all languages; `bounded` says that thresholds go beside it."""
-    vectors = golden(program)
-    found: dict[str, str] = {}
-    for name in dict.fromkeys(targets):
-        target = load(name)
-        holes = _HOLES[name](program, target, about, vectors, tuned) | {"bounded": bounded}
-        for template, path in target.files:
-            if not (program.bounds and path in _ONCE):
-                found[path.format(file=about.file)] = fill(template, holes)
+    """The code of a program in one language."""
+    language, found, file = _LANGUAGES[target.folder], dict[str, str](), facts(program).file
+    vectors = golden(program) if "tests" in extras else _untested(program)
+    holes = language.files(program, target, vectors, tuned, thresholds)
+    holes |= {f"has_{name}": name in extras for name in EXTRAS}
+
+    def add(files: Iterable[tuple[str, str]], holes: dict[str, object], of: str) -> None:
+        for template, path in files:
+            found[path.format(file=file, of=of)] = fill(template, holes)
+
+    add(target.files, holes, "")
+    for name in extras:
+        own = holes | language.exact(program, target) if name == "exact" else holes
+        add(target.extras[name], own, "")
+    if "tests" in extras and thresholds is not None:
+        own = language.tests(thresholds, program, target, golden(thresholds), vectors)
+        add(target.extras["tests"], holes | own | {"has_exact": False}, "_thresholds")
     return found
+
+
+def _untested(program: Program) -> Golden:
+    """No vectors: only the parameters that the example sets."""
+    return Golden({f.name: 1.0 if f.default is None else f.default for f in program.params}, (), ())

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from bondgraph.algebra.near import ABOVE, BELOW, BOUND, FAR
 from bondgraph.backends import listing
-from bondgraph.backends.identifiers import snake
+from bondgraph.backends.identifiers import file_name, snake
 from bondgraph.ir.program import (
     Assign,
     Const,
@@ -18,11 +19,12 @@ from bondgraph.ir.program import (
     Statement,
     flat,
 )
+from bondgraph.notation.dialect import digits
 from bondgraph.notation.walk import functions, nodes, reads
 from bondgraph.text.tuples import NamedTuple
 
 #: Changes when a struct or a function of the generated code changes.
-ABI = 2
+ABI = 3
 
 #: The least bandwidth * sample_time at which a filter still moves, for double and for float.
 SLOWEST, SLOWEST_FLOAT = 1e-9, 1e-4
@@ -34,9 +36,9 @@ class Facts(NamedTuple):
     """Numbers and texts about a program, ready to be written.
 
     `fastest` is the largest bandwidth * sample_time; `least_sample_time` is 0.0 where no term was
-    left out and no sample is remembered, and so any rate will do. `file` is the name of the module,
-    `noun` what it computes, `headline` both in one sentence. `laws` are the functions that the
-    code needs.
+    left out and no sample is remembered, and so any rate will do. `stem` begins all names, `file`
+    those of the files, `noun` is what they compute, `headline` both in one sentence. `laws` are the
+    functions that the code needs.
     """
 
     stem: str
@@ -68,7 +70,7 @@ def facts(program: Program) -> Facts:
         headline = f"{program.name}: how far residuals can be from zero while the machine is well."
     return Facts(
         stem,
-        stem if program.bounds else f"{stem}_residuals",
+        file_name(stem),
         "thresholds" if program.bounds else "residuals",
         headline,
         max(3.0, 1.01 * default),
@@ -125,3 +127,13 @@ def about_residual(info: ResidualInfo) -> str:
         return sees
     named = info.text.startswith((f"{info.name} = ", f"{info.name}: "))
     return f"{info.text if named else f'{info.name} = {info.text}'}\n{sees}"
+
+
+def near() -> dict[str, object]:
+    """The numbers of the functions that are near those of the library, from the highest power."""
+    return {
+        "bound": f"{BOUND:g}",
+        "far": digits(FAR),
+        "above": [digits(x) for x in reversed(ABOVE)],
+        "below": [digits(x) for x in reversed(BELOW)],
+    }

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from bondgraph.backends import listing
+from bondgraph.backends.one_procedure import Procedure, Start
 from bondgraph.backends.spelling import Spelling
 from bondgraph.ir.program import (
     Assignment,
@@ -21,27 +22,48 @@ from bondgraph.ir.program import (
     Statement,
 )
 from bondgraph.notation.dialect import CodeSpeller, digits
+from bondgraph.text.tuples import NamedTuple
+
+
+class About(NamedTuple):
+    """What a function is about: a `place`, the `text` of its residual, a `prefix` of comments."""
+
+    place: str
+    text: str
+    prefix: str
+
+
+ANYTHING = About("", "", "")
 
 
 def lines(
-    statements: Iterable[Statement],
+    statements: Iterable[Statement | Start],
     spelling: Spelling,
     speller: CodeSpeller,
     indent: int,
     tape: Callable[[PolynomialTape, CodeSpeller], list[str]] | None = None,
+    about: About = ANYTHING,
 ) -> list[str]:
     """The code; statements that come from the same equation share one comment above them.
 
-    `tape` writes a polynomial tape, which each language does in its own way.
+    `tape` writes a polynomial tape, which each language does in its own way. What the function is
+    `about` anyway is not said again.
     """
     target = spelling.target
     found: list[str] = []
-    last = ""
+    last, last_place = "", about.place
     for statement in statements:
-        why = listing.words(listing.place(statement.origin), statement.comment)
-        if why and why != last:
-            found += ([""] if found else []) + listing.comment(why, target, indent)
-        last = why
+        if isinstance(statement, Start):
+            found += ([""] if found else []) + _start(statement, spelling, speller, indent)
+            last = ""
+            continue
+        place = listing.place(statement.origin)
+        comment = "" if statement.comment == about.text else statement.comment
+        comment = comment.removeprefix(about.prefix)
+        why = listing.words("" if place == last_place else place, comment)
+        if comment != last or not found:
+            found += ([""] if found else []) + (listing.comment(why, target, indent) if why else [])
+        last, last_place = comment, place
         if isinstance(statement, PolynomialTape):
             assert tape is not None, "a tape stands only in configure"
             found += tape(statement, speller)
@@ -57,6 +79,41 @@ def lines(
             value = speller.expression(statement.value)
         found += _assigned(pattern, statement.target, value, spelling, speller, indent)
     return found
+
+
+def procedure(
+    run: Procedure, spelling: Spelling, speller: CodeSpeller, indent: int, about: About
+) -> list[str]:
+    """What a block does with a sample."""
+    if not run.apart:
+        return lines(run.statements, spelling, speller, indent, about=about)
+    target = spelling.target
+    space, deeper = " " * indent, indent + target.tab
+    if_, else_, end = target.statements.branch
+    sides = [lines(s, spelling, speller, deeper, about=about) for s in (run.apart, run.statements)]
+    return [
+        space + if_.format("first"),
+        *sides[0],
+        space + else_,
+        *sides[1],
+        *([space + end] if end else []),
+    ]
+
+
+def _start(start: Start, spelling: Spelling, speller: CodeSpeller, indent: int) -> list[str]:
+    """What only the first sample does."""
+    target, space = spelling.target, " " * indent
+    if_, _, end = target.statements.branch
+    own = [
+        line
+        for s in start.statements
+        for line in lines([s._replace(comment="", origin=None)], spelling, speller,
+                          indent + target.tab)
+    ]  # fmt: skip
+    comment = start.statements[0].comment
+    head = listing.comment(comment, target, indent + target.tab) if comment else []
+    if_ = space + if_.format("first")
+    return [if_, *head, *own, *([space + end] if end else [])]
 
 
 def _assigned(

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 
 from bondgraph.backends import decision, listing
 from bondgraph.backends.blocks import Block
+from bondgraph.backends.c import block_about, block_text
 from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.facts import (
     ABI,
@@ -16,126 +17,212 @@ from bondgraph.backends.facts import (
     about_field,
     about_residual,
     exponential,
+    facts,
+    near,
 )
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples, signals
-from bondgraph.backends.procedure_lines import lines, roots, tables
+from bondgraph.backends.parts import exact_part, step_part
+from bondgraph.backends.procedure_lines import lines, procedure, roots, tables
+from bondgraph.backends.repeated import repeated
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
+from bondgraph.backends.templates import fill
 from bondgraph.backends.vectors import Vectors
-from bondgraph.ir.program import Assignment, Dot, PolynomialTape, Program
+from bondgraph.ir.program import Dot, Field, PolynomialTape, Program, ResidualInfo
 from bondgraph.notation.dialect import CodeSpeller, digits
 from bondgraph.notation.walk import reads
 from bondgraph.text.numerals import joined
 
-_HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "along", "map", "inverse", "root")
+_HELPERS = "near_tanh sign ssqrt ssq power table along map inverse root".split()
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 _TYPES = {"real": "float", "bool": "bool", "count": "int"}
 
 
-def holes(
-    program: Program, target: Target, facts: Facts, golden: Golden, tuned: Tuned = UNTUNED
+def files(
+    program: Program,
+    target: Target,
+    golden: Golden,
+    tuned: Tuned = UNTUNED,
+    bounds: Program | None = None,
+    decides: bool = True,
 ) -> dict[str, object]:
-    """Everything that the templates of Python leave open."""
-    module = _Module(program, target, facts)
-    found = module.all() | Vectors(program, module.spelling, golden).python()
-    return found | decision.python_holes(program, tuned, target)
+    """The holes of all templates of Python but those of `exact`; see `c.files`."""
+    whole, program = program, step_part(program)
+    about = facts(program)
+    spelling = Spelling(program, target)
+    parts = [_Part(program, spelling)]
+    if bounds is not None:
+        parts.append(_Part(bounds, Spelling(bounds, target, spelling)))
+    found: dict[str, object] = {
+        **_file(about, parts, target),
+        **_declared(about, parts, target),
+        **Vectors(whole, Spelling(whole, target), golden).python(),
+        **decision.python_holes(program, tuned, target),
+        "noun": about.noun,
+        "class_name": "Monitor",
+        "digest": program.digest,
+        "bounded": bounds is not None,
+    }
+    found["decides"] = bool(found["decides"]) and decides
+    found["imports"] = _imports(parts, bool(found["decides"]))
+    cores = [fill("python/core.py.j2", found | p.core()).rstrip("\n") for p in parts]
+    return found | {"cores": cores}
 
 
-class _Module:
-    def __init__(self, program: Program, target: Target, facts: Facts) -> None:
+def tests(
+    bounds: Program, program: Program, target: Target, golden: Golden, base: Golden
+) -> dict[str, object]:
+    """The holes of the templates of `tests` for thresholds; `base` belongs to the residuals."""
+    spelling = Spelling(step_part(program), target)
+    own = Spelling(bounds, target, spelling)
+    found = Vectors(bounds, own, golden, (program, base)).python()
+    return found | {"class_name": "Thresholds", "noun": "thresholds"}
+
+
+def exact(program: Program, target: Target) -> dict[str, object]:
+    """The holes of the templates of `exact`."""
+    spelling = Spelling(program, target)
+    part = exact_part(program)
+    own = _Part(part, Spelling(part, target, spelling))
+    return {
+        **_file(facts(part), [own], target),
+        **own.core(),
+        "imports": _imports([own], False),
+        "time_unit": digits(program.time_unit),
+        "derivatives": own.struct(derivatives(part, own.spelling), "no signals"),
+        "derivative_scale": "" if program.time_unit == 1.0 else _SCALED,
+        "exact": own.exact(),
+    }
+
+
+def _file(about: Facts, parts: list[_Part], target: Target) -> dict[str, object]:
+    """What every file with code needs: its helpers and its tables."""
+    first, laws = parts[0], frozenset[str]().union(*(facts(p.program).laws for p in parts))
+    shown = [r for p in parts for r in roots(p.program, p.spelling, "{0}: float", 12)]
+    rows = [t for p in parts for t in tables(p.program, p.spelling, "({0})", _number, ("",))]
+    rows += [t for p in parts for tape in p.tapes for t in _tape_tables(tape, target)]
+    return {
+        "stem": about.stem,
+        "file": about.file,
+        "headline": listing.harmless(about.headline, target),
+        "model": listing.harmless(first.program.name, target),
+        "abi": ABI,
+        "near": near(),
+        "unset": "; those without a value are yours to set" if first.unset else "",
+        "unwritten": any(r.unwritten for r in first.program.residuals),
+        "parameters_default": "" if first.unset else " | None = None",
+        "helpers": _helpers(laws, parts),
+        "roots": list({r["name"]: r for r in shown}.values()),
+        "tables": list({r["name"]: r for r in rows}.values()),
+    }
+
+
+def _declared(about: Facts, parts: list[_Part], target: Target) -> dict[str, object]:
+    """What the programs of a file share: parameters, samples, residuals."""
+    first, program = parts[0], parts[0].program
+    fields: dict[str, Field] = {}
+    for field in (f for p in parts for f in p.program.params):
+        fields.setdefault(field.name, field)
+    title = listing.harmless(program.title, target)
+    source = listing.harmless(program.source, target)
+    text = f"Generated by bondgraph from {source}: change the model, not this file."
+    said = [textwrap.wrap(p, target.width) for p in (title, text) if p]
+    return {
+        "about": [line for at, part in enumerate(said) for line in (*[""] * (at > 0), *part)],
+        "sample_time": digits(1.0 / program.rate),
+        "bandwidth": digits(program.bandwidth),
+        "parameters": first.parameters(list(fields.values())),
+        "samples": first.struct(samples(program, first.spelling), "no signals"),
+        "residuals": first.members(
+            [
+                (f"{first.spelling.residuals[r.name]}: float = 0.0", about_residual(r))
+                for r in program.residuals
+            ]
+        ),
+        "encoders": any(p.spelling.encoders for p in parts),
+        "checks": first.checks(about),
+    }
+
+
+def _imports(parts: list[_Part], decides: bool) -> list[str]:
+    encoders = any(p.spelling.encoders for p in parts)
+    found = ["from dataclasses import dataclass" + (", field" * encoders)]
+    exact = [p for p in parts if p.program.exact]
+    if decides or any(k.highest >= 1 for p in exact for k in p.program.knowns):
+        found.insert(0, "from collections.abc import Sequence")
+    return ["import math", *found]
+
+
+def _helpers(laws: frozenset[str], parts: list[_Part]) -> list[str]:
+    laws |= {"table"} if "along" in laws else set()
+    found = [name for name in _HELPERS if name in laws]
+    wanted = {
+        "exponential": any(exponential(p.program) for p in parts),
+        "dot": any(isinstance(s, Dot) for p in parts for s in p.program.exact),
+        "tape": any(p.tapes for p in parts),
+        "line": any(p.spelling.lines for p in parts),
+    }
+    return found + [name for name, needed in wanted.items() if needed]
+
+
+class _Part:
+    """One program of a file: residuals, thresholds, or `exact`."""
+
+    def __init__(self, program: Program, spelling: Spelling) -> None:
         self.program = program
-        self.target = target
-        self.facts = facts
-        self.spelling = Spelling(program, target)
+        self.target = spelling.target
+        self.spelling = spelling
         self.tapes = [s for s in program.configure if isinstance(s, PolynomialTape)]
         self.unset = any(f.default is None for f in program.params)
-        self.has_dot = any(isinstance(s, Dot) for s in program.exact)
 
-    def all(self) -> dict[str, object]:
-        """The holes of all templates of this target."""
+    def core(self) -> dict[str, object]:
+        """The holes of core.py.j2."""
         program, blocks = self.program, self.spelling.blocks
-        scaled = "" if program.time_unit == 1.0 else _SCALED
+        kind = "Threshold" if program.bounds else ""
+        lines = self.spelling.lines
+        states = [(f"{self.spelling.states[f.name]}: float", f.doc) for f in program.states]
         return {
             **self._configure(),
-            "stem": self.facts.stem,
-            "file": self.facts.file,
-            "headline": listing.harmless(self.facts.headline, self.target),
-            "model": listing.harmless(program.name, self.target),
-            "about": self._about(),
-            "imports": self._imports(),
-            "abi": ABI,
-            "digest": program.digest,
-            "sample_time": digits(1.0 / program.rate),
-            "bandwidth": digits(program.bandwidth),
-            "time_unit": digits(program.time_unit),
-            "unwritten": any(r.unwritten for r in program.residuals),
-            "unset": "; those without a value are yours to set" if self.unset else "",
-            "parameters": self._parameters(),
-            "samples": self._struct(samples(program, self.spelling), "no signals"),
-            "signals": self._struct(signals(program, self.spelling), "no signals"),
-            "taken": "Signals" if self.spelling.lines else "Samples",
-            **self._lines(),
-            "derivatives": self._struct(derivatives(program, self.spelling), "no signals"),
-            "derivative_scale": scaled,
-            "residuals": self._members(
-                [
-                    (f"{self.spelling.residuals[r.name]}: float = 0.0", about_residual(r))
-                    for r in program.residuals
-                ]
-            ),
-            "parts": self._parts(),
-            "encoders": bool(self.spelling.encoders),
+            **self._lines(f"{kind}Signals"),
+            "kind": kind,
+            "class_name": "Thresholds" if program.bounds else "Monitor",
+            "noun": "thresholds" if program.bounds else "residuals",
+            "memory": self.members(states),
+            "attributes": self._attributes(kind),
+            "signals": self.struct(signals(program, self.spelling), "no signals"),
+            "taken": f"{kind}Signals" if lines else "Samples",
             "encoder_fields": self._encoders(),
-            "helpers": self._helpers(),
-            "roots": roots(program, self.spelling, "{0}: float", 12),
-            "tables": [
-                *tables(program, self.spelling, "({0})", _number, ("",)),
-                *map(self._tape_table, self.tapes),
-            ],
-            "exact": self._exact(),
             "step": self._step(),
             "blocks": [self._block(k, b) for k, b in enumerate(blocks)],
             "block_count": len(blocks),
         }
 
-    def _about(self) -> list[str]:
-        program = self.program
-        title = listing.harmless(program.title, self.target)
-        source = listing.harmless(program.source, self.target)
-        text = f"Generated by bondgraph from {source}: change the model, not this file."
-        parts = [textwrap.wrap(p, self.target.width) for p in (title, text) if p]
-        return [line for at, part in enumerate(parts) for line in (*[""] * (at > 0), *part)]
-
-    def _imports(self) -> list[str]:
-        found = ["from dataclasses import dataclass" + (", field" * bool(self.spelling.encoders))]
-        wants = self.has_dot or any(k.highest >= 1 for k in self.program.knowns)
-        if wants or not self.program.bounds:  # a diagnosis takes limits
-            found.insert(0, "from collections.abc import Sequence")
-        return ["import math", *found]
-
     # ----------------------------------------------------------------- declarations
 
-    def _members(self, pairs: list[tuple[str, str]]) -> list[str]:
+    def members(self, pairs: list[tuple[str, str]]) -> list[str]:
+        """Fields of a class, with what they are."""
         return listing.members(pairs, self.target, 4)
 
-    def _parameters(self) -> list[str]:
+    def parameters(self, fields: list[Field]) -> list[str]:
+        """The fields of the class of parameters."""
         pairs = []
-        for field in self.program.params:
+        for field in fields:
             value = "" if field.default is None else f" = {digits(field.default)}"
             pairs.append((f"{self.spelling.params[field.name]}: float{value}", about_field(field)))
-        return self._members(pairs) if pairs else ["    # the code reads none"]
+        return self.members(pairs) if pairs else ["    # the code reads none"]
 
-    def _struct(self, found: Iterable[Member], none: str) -> list[str]:
+    def struct(self, found: Iterable[Member], none: str) -> list[str]:
+        """Signals as fields of a class."""
         pairs = []
         for member in found:
             kind = _TYPES[member.type]
             if member.size:
                 kind = f"Sequence[{kind}]"
             pairs.append((f"{member.name}: {kind}", member.text))
-        return self._members(pairs) if pairs else [f"    # the model has {none}"]
+        return self.members(pairs) if pairs else [f"    # the model has {none}"]
 
-    def _lines(self) -> dict[str, object]:
+    def _lines(self, kind: str) -> dict[str, object]:
         """The memory of past values: how long it is, what is kept in it and what recalled."""
         spelling = self.spelling
         back = [
@@ -149,6 +236,7 @@ class _Module:
                 f"self._lines[{k}].keep(samples.{spelling.knowns[name]})"
                 for k, name in enumerate(spelling.lines)
             ],
+            "signals_class": kind,
             "recall": [f"{name}=samples.{name}," for name in names]
             + [
                 f"{spelling.knowns[past.known.name]}=self._lines[{k}].recalled(self._back[{j}]),"
@@ -156,26 +244,9 @@ class _Module:
             ],
         }
 
-    def _parts(self) -> list[dict[str, object]]:
-        spelling = self.spelling
-        coefs = [
-            (f"{spelling.coefs[f.name]}: {'list[float]' if f.size else 'float'}", f.doc)
-            for f in self.program.coefs
-        ]
-        states = [(f"{spelling.states[f.name]}: float", f.doc) for f in self.program.states]
-        parts = (
-            ("Coefficients", "What the monitor computes from the parameters.", coefs),
-            ("Memory", "What the filters remember from sample to sample.", states),
-        )
-        return [
-            {"name": name, "doc": doc, "lines": self._members(pairs)}
-            for name, doc, pairs in parts
-            if pairs
-        ]
-
     def _encoders(self) -> list[str]:
         members = {b.name: joined(b.residuals) for b in self.spelling.blocks}
-        return self._members(
+        return self.members(
             [
                 (f"{name}: Encoder = field(default_factory=Encoder)", f"for {members[block]}")
                 for (block, _), name in self.spelling.encoders.items()
@@ -191,53 +262,64 @@ class _Module:
         options = {ref.name for ref in read if ref.space == "option"}
         arguments, values = ["self"], []
         if any(ref.space == "param" for ref in read):
-            arguments.append("p: Parameters")
+            arguments.append("p: Parameters" if not program.exact else "p: m.Parameters")
             values.append("p")
         arguments += [f"{name}: float" for name in _OPTIONS if name in options]
-        values += [name for name in _OPTIONS if name in options]
+        values += [
+            name if name != "time_unit" or program.exact else digits(program.time_unit)
+            for name in _OPTIONS
+            if name in options
+        ]
         body = lines(program.configure, spelling, speller, 8, self._tape)
         head = ["        c = self._c", ""] if program.coefs else []
+        coefs = [
+            (f"{spelling.coefs[f.name]}: {'list[float]' if f.size else 'float'}", f.doc)
+            for f in program.coefs
+        ]
         return {
-            "attributes": self._attributes(),
-            "checks": self._checks(),
+            "coefficients": self.members(coefs),
             "configure_head": _head("_configure", arguments, self.target),
             "configure_values": ", ".join(values),
             "configure": [*head, *body] or ["        # the model needs no coefficients"],
-            "parameters_default": "" if self.unset else " | None = None",
             "coefficients_are_finite": self._coefficients_are_finite(),
+            "parameters_are_finite": self.parameters_are_finite(),
             "settle": self._settle(),
         }
 
-    def _attributes(self) -> list[str]:
+    def _attributes(self, kind: str) -> list[str]:
         found = []
         if self.program.coefs:
-            found.append("        self._c = Coefficients()")
+            found.append(f"        self._c = {kind}Coefficients()")
         if self.program.states:
-            found.append("        self._x = Memory()")
+            found.append(f"        self._x = {kind}Memory()")
         if self.spelling.encoders:
-            found.append("        self._e = Encoders()")
+            found.append(f"        self._e = {kind}Encoders()")
         return found
 
-    def _checks(self) -> list[str]:
+    def parameters_are_finite(self) -> list[str]:
+        """What refuses parameters that are no numbers."""
         params = [f"p.{self.spelling.params[f.name]}" for f in self.program.params]
-        least, fastest = self.facts.least_sample_time, digits(self.facts.fastest)
-        limit = f">= {digits(least)}" if least else "> 0.0"
-        found = []
-        if params:
-            given = "parameters" if self.unset else "parameters or Parameters()"
-            found.append(f"        p = {given}")
-            found += self._if("not math.isfinite({0})", params, 8)
-            found.append('            raise ValueError("a parameter is not a finite number")')
-        found += [
-            f"        if not (sample_time {limit} and math.isfinite(sample_time)):",
-            f'            raise ValueError("sample_time must be finite and {limit} s")',
-            f"        if not {digits(SLOWEST)} <= bandwidth * sample_time <= {fastest}:",
-            "            raise ValueError("
-            f'"bandwidth * sample_time must be {digits(SLOWEST)} to {fastest}")',
-            "        if not (time_unit > 0.0 and math.isfinite(time_unit)):",
-            '            raise ValueError("time_unit must be finite and positive")',
+        if not params:
+            return []
+        own = "m.Parameters" if self.program.exact else "Parameters"
+        given = "parameters" if self.unset else f"parameters or {own}()"
+        return [
+            f"        p = {given}",
+            *self._if("not math.isfinite({0})", params, 8),
+            '            raise ValueError("a parameter is not a finite number")',
         ]
-        return found
+
+    def checks(self, about: Facts) -> list[str]:
+        """What refuses a bad sample time or bandwidth."""
+        least, fastest = about.least_sample_time, digits(about.fastest)
+        limit = f">= {digits(least)}" if least else "> 0.0"
+        return [
+            f"    if not (sample_time {limit} and math.isfinite(sample_time)):",
+            f'        raise ValueError("sample_time must be finite and {limit} s")',
+            f"    if not {digits(SLOWEST)} <= bandwidth * sample_time <= {fastest}:",
+            "        raise ValueError("
+            f'"bandwidth * sample_time must be {digits(SLOWEST)} to {fastest}")',
+        ]
 
     def _coefficients_are_finite(self) -> list[str]:
         names = [
@@ -287,7 +369,8 @@ class _Module:
             "scales = (",
             *[f"    {line}" for line in listing.table([*scales, ""], self.target, 0)],
             ")",
-            f"rows = _run_tape({_tape_name(tape)}, scales, {tape.rows}, {tape.length})",
+            f"rows = _run_tape({_tape_name(tape)}, {_tape_name(tape)}_RUNS, scales, {tape.rows},"
+            f" {tape.length})",
         ]
         for output in tape.outputs:
             array = coef.format(self.spelling.coefs[output.array])
@@ -295,25 +378,15 @@ class _Module:
         why = listing.words(listing.place(tape.origin), tape.comment or tape.residual)
         return [*listing.comment(why, self.target, 8), *[f"        {line}" for line in body]]
 
-    def _tape_table(self, tape: PolynomialTape) -> dict[str, object]:
-        rows = [
-            f"({o.target}, {o.source}, {o.shift}, {o.scale}, {o.length}, {o.fresh})"
-            for o in tape.ops
-        ]
-        return {
-            "comment": "target, source, shift, scale, length, fresh: see _run_tape",
-            "name": _tape_name(tape),
-            "lines": listing.table([*rows, ""], self.target, 4),
-        }
-
     # ---------------------------------------------------------------- exact and step
 
-    def _exact(self) -> list[str]:
+    def exact(self) -> list[str]:
+        """The body of exact."""
         spelling = self.spelling
         speller = CodeSpeller(self.target.dialect, spelling.exact, spelling.tables)
         written = [r for r in self.program.residuals if not r.unwritten]
         names = ", ".join(f'"{r.name}"' for r in written)
-        call = "r = Residuals(valid=frozenset({0}))"
+        call = "r = m.Residuals(valid=frozenset({0}))"
         head = listing.statement(call, f"[{names}]", self.target, 8)
         if any(ref.space == "coef" for ref in reads(self.program.exact)):
             head.insert(0, "        c = self._c")
@@ -353,49 +426,60 @@ class _Module:
         ]
 
     def _block(self, number: int, block: Block) -> dict[str, object]:
-        spelling = self.spelling
-        measured = [f"s.{name}" for name in spelling.measured(block)]
+        spelling, target = self.spelling, self.target
+        infos = [r for r in self.program.residuals if r.name in block.residuals]
+        unheard = [f"s.{name}" for name in spelling.unheard(block)]
         results = [f"r.{spelling.residuals[r]}" for r in block.residuals]
         return {
             "name": block.name,
             "number": number,
-            "title": joined(block.residuals),
-            "begins": block.begins,
-            "first": self._run(block, block.first, "count_from"),
-            "step": self._run(block, block.step, "count_on"),
-            "finite": self._if("not math.isfinite({0})", [*measured, *results], 12),
+            "comment": listing.comment("\n".join(block_text(infos)), target, 4),
+            "run": self._run(block, infos),
+            "finite": self._if("not math.isfinite({0})", [*unheard, *results], 12),
             "zero": [f"            {name} = 0.0" for name in results],
+            "names": joined(block.residuals),
         }
 
-    def _run(self, block: Block, statements: tuple[Assignment, ...], count: str) -> list[str]:
+    def _run(self, block: Block, infos: list[ResidualInfo]) -> list[str]:
         spelling = self.spelling
         speller = CodeSpeller(
             self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
         )
-        spaces = {ref.space for ref in reads(statements)}
+        spaces = {ref.space for ref in reads((*block.first, *block.step))}
         head = []
         if "coef" in spaces:
-            head.append("        c = self._c")
+            head.append("            c = self._c")
         if "state" in spaces:
-            head.append("        x = self._x")
-        counts = [
-            f"        self._e.{memory}.{count}(s.{member})"
-            for memory, member in spelling.counted(block)
+            head.append("            x = self._x")
+        counts = spelling.counted(block)
+        if block.run.asks or counts:
+            head.append("            first = age == 0")
+        head += [
+            f"            self._e.{memory}.count_on(s.{member}, first)" for memory, member in counts
         ]
         if spaces & {"increment", "total"}:
-            head.append("        e = self._e")
-        body = [*head, *counts]
-        if body:
-            body.append("")
-        return [*body, *lines(statements, spelling, speller, 8)]
+            head.append("            e = self._e")
+        body = procedure(block.run, spelling, speller, 12, block_about(infos))
+        return [*head, *([""] if head else []), *body]
 
-    def _helpers(self) -> list[str]:
-        laws = self.facts.laws | ({"table"} if "along" in self.facts.laws else set())
-        found = [name for name in _HELPERS if name in laws]
-        wanted = {"exponential": exponential(self.program), "dot": self.has_dot}
-        wanted["tape"] = bool(self.tapes)
-        wanted["line"] = bool(self.spelling.lines)
-        return found + [name for name, needed in wanted.items() if needed]
+
+def _tape_tables(tape: PolynomialTape, target: Target) -> list[dict[str, object]]:
+    ops, runs = repeated(tape.ops)
+    lines = [
+        f"({o.target}, {o.source}, {o.shift}, {o.scale}, {o.length}, {o.fresh})" for o in ops
+    ]
+    return [
+        {
+            "comment": "target, source, shift, scale, length, fresh: see _run_tape",
+            "name": _tape_name(tape),
+            "lines": listing.table([*lines, ""], target, 4),
+        },
+        {
+            "comment": "first, count, times, grow",
+            "name": f"{_tape_name(tape)}_RUNS",
+            "lines": listing.table([*[str(tuple(run)) for run in runs], ""], target, 4),
+        },
+    ]
 
 
 _SCALED = ";\n\n    derivative k times time_unit to the power k."

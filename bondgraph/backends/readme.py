@@ -9,6 +9,8 @@ from bondgraph.backends.blocks import lines
 from bondgraph.backends.c import needs_library
 from bondgraph.backends.facts import Facts
 from bondgraph.backends.identifiers import identifier, snake
+from bondgraph.backends.nominal_coefficients import nominal
+from bondgraph.backends.parts import step_part
 from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
 from bondgraph.text.numerals import joined
 
@@ -16,11 +18,17 @@ _ROW_FAULTS = 200  # a longer matrix is left to the list of each residual
 
 
 def readme(
-    program: Program, facts: Facts, programs: Mapping[str, str], thresholds: Program | None = None
+    program: Program,
+    facts: Facts,
+    targets: Sequence[str],
+    programs: Mapping[str, str],
+    thresholds: Program | None = None,
+    extras: Sequence[str] = (),
 ) -> dict[str, object]:
     """The holes of README.md.j2; `programs` has the text of the example by target."""
     stem = facts.stem
     return {
+        "prefix": stem.upper(),
         "model": _plain(program.name),
         "title": _plain(program.title) if program.title else "",
         "source": _plain(program.source),
@@ -30,8 +38,10 @@ def readme(
         "matrix": _matrix(program.residuals),
         "signals": _table(("signal", "unit", "in `step`", "meaning"), map(_signal, program.knowns)),
         "parameters": _parameters(program.params),
-        "examples": [_EXAMPLES[name](stem, text, facts) for name, text in programs.items()],
-        "usage": _usage(program, facts, tuple(programs)),
+        "files": _file_list(facts.file, targets, extras),
+        "embedded": [_EMBEDDED[name](program, facts) for name in targets],
+        "examples": [_EXAMPLES[name](text, facts) for name, text in programs.items()],
+        "usage": _usage(program, facts, targets),
         "named": _named(program),
         "dropped": _dropped(program.dropped),
         "thresholds": [] if thresholds is None else _thresholds(thresholds),
@@ -148,30 +158,88 @@ def _parameters(params: Sequence[Field]) -> list[str]:
     return _table(("parameter", "unit", "value in the model", "meaning"), rows)
 
 
-def _c_example(stem: str, text: str, facts: Facts) -> dict[str, object]:
+def _file_list(file: str, targets: Sequence[str], extras: Sequence[str]) -> list[str]:
+    """What is in the folder."""
+    rows = []
+    if "c" in targets:
+        rows.append((f"`{file}.h`, `{file}.c`", "all of it in C99: two files to add to a project"))
+        rows.append(("`CMakeLists.txt`", "the library, alone or in another project"))
+    if "python" in targets:
+        rows.append((f"`{file}.py`", "the same in Python 3.11, with the same digits"))
+    further = {
+        "tests": ("`tests/`", "whether the code gives what it must, on your machine"),
+        "exact": ("`exact/`", "the residuals of exact derivatives, for simulators"),
+        "example": ("`example/`", "a program to start from"),
+    }
+    rows += [further[name] for name in extras]
+    found = _table(("file", "what it is"), rows)
+    left = [name for name in further if name not in extras]
+    if left:
+        found += ["", f"`bondgraph compile --with {','.join(left)}` writes more."]
+    return found
+
+
+def _c_embedded(program: Program, facts: Facts) -> dict[str, str]:
+    """The few lines that a controller needs."""
+    stem, fixed = facts.stem, nominal(step_part(program)) is not None
+    before = [f"static {stem}_memory memory; /* one for each machine */"]
+    coefficients = f"&{stem}_nominal_coefficients"
+    start = [f"{stem}_reset(&memory);"]
+    if not fixed:
+        before.append(f"static {stem}_coefficients coefficients;")
+        coefficients = "&coefficients"
+        upper = stem.upper()
+        start.insert(
+            0, f"{stem}_configure(&coefficients, &parameters, {upper}_SAMPLE_TIME, "
+            f"{upper}_BANDWIDTH);"
+        )  # fmt: skip
+    code = [
+        f'#include "{facts.file}.h"',
+        "",
+        *before,
+        "",
+        "/* once */",
+        *start,
+        "",
+        f"/* every {1 / program.rate:g} s */",
+        f"{stem}_step({coefficients}, &memory, &samples, &residuals);",
+    ]
+    return {"title": "In C", "language": "c", "code": "\n".join(code)}
+
+
+def _python_embedded(program: Program, facts: Facts) -> dict[str, str]:
+    unset = any(f.default is None for f in program.params)
+    code = [
+        f"import {facts.file}",
+        "",
+        f"monitor = {facts.file}.Monitor({'parameters' if unset else ''})",
+        f"residuals = monitor.step(samples)  # every {1 / program.rate:g} s",
+    ]
+    return {"title": "In Python", "language": "python", "code": "\n".join(code)}
+
+
+_EMBEDDED = {"c": _c_embedded, "python": _python_embedded}
+
+
+def _c_example(text: str, facts: Facts) -> dict[str, object]:
     libm = " -lm" if needs_library(facts) else ""
     return {
         "title": "A complete program in C",
         "language": "c",
         "code": text,
         "text": (
-            f"This is `example.c`. Compile it with\n"
-            f"`cc -std=c99 -O2 example.c {stem}_residuals.c -o example{libm}`, or everything, the\n"
-            "library, this program and the self-test, with `cmake -B build && cmake --build build "
-            "&&\nctest --test-dir build`."
+            "This is `example/example.c`. Compile it with\n"
+            f"`cc -std=c99 -O2 -I. example/example.c {facts.file}.c -o watch{libm}`, or with cmake."
         ),
     }
 
 
-def _python_example(stem: str, text: str, facts: Facts) -> dict[str, object]:
+def _python_example(text: str, facts: Facts) -> dict[str, object]:
     return {
         "title": "A complete program in Python",
         "language": "python",
         "code": text,
-        "text": (
-            f"This is `example.py`; `{stem}_residuals.py` needs nothing but Python 3.11. "
-            "`python selftest.py`\nchecks it."
-        ),
+        "text": "This is `example/example.py`: `python example/example.py`.",
     }
 
 
@@ -223,9 +291,10 @@ def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
     wait = settle / program.bandwidth
     stem, prefix = facts.stem, snake(program.name).upper()
     found = [
-        f"- **`configure`** computes all coefficients, once. It was made for a sample time of "
+        f"- **`configure`** computes the coefficients. They are made for a sample time of "
         f"{1 / program.rate:g} s and a filter of {program.bandwidth:g} rad/s; a slower filter is "
-        "later and quieter.",
+        "later and quieter. In C they are a struct of their own: constant, in flash if you want, "
+        "shared by machines of one kind. Those of the model's own parameters are there already.",
         "- **`step`** takes samples. All signals pass one and the same filter, so that the result "
         "is the residual itself, filtered, without forming a derivative.",
         f"- **Warm-up**: a residual is flagged valid {wait:.2g} s after the first sample "
@@ -241,12 +310,10 @@ def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
         "hardly one that a quiet residual would show, were it large enough. Blind residuals say "
         "nothing. A healthy residual is near zero, not zero: `bondgraph compile --tuning` puts the "
         "limits of a log of the healthy machine into the code; or make them of what you see.",
-        "- **`exact`** takes exact derivatives of the signals, for tests and simulators; it "
-        "filters nothing.",
     ]
     if "c" in targets:
         found += [
-            f"- **C**: C99 or C++, no heap, no globals; one monitor is one `{stem}_monitor`, and "
+            f"- **C**: C99 or C++, no heap, no globals; one machine is one `{stem}_memory`, and "
             f"several may run side by side. `-D{prefix}_FLOAT` computes in `float`, without any "
             f"`double`. `{stem}_abi()` and `{stem}_digest()` tell what a compiled library is. "
             "`-ffp-contract=off` gives the same digits as Python; `-ffast-math` is refused, "

@@ -8,7 +8,7 @@ machine has one sample at a time and calls `step`.
 from __future__ import annotations
 
 from bondgraph.backends import c, python
-from bondgraph.backends.facts import ABI, Facts, facts
+from bondgraph.backends.facts import ABI, facts
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.members import samples
@@ -29,8 +29,8 @@ def runnable(program: Program) -> Runnable:
     values = {f.name: 1.0 if f.default is None else f.default for f in program.params}
     none = Golden(values, (), ())  # nothing is tested here
     own, other = load("c"), load("python")
-    holes = c.holes(program, own, about, none) | {"decides": False}  # the monitor decides
-    files = {name: fill(f"c/residuals.{name}.j2", holes) for name in ("h", "c")}
+    holes = c.files(program, own, none, decides=False)  # the monitor decides
+    files = {name: fill(f"c/model.{name}.j2", holes) for name in ("h", "c")}
     spelling = Spelling(program, other)
     return Runnable(
         program,
@@ -41,17 +41,12 @@ def runnable(program: Program) -> Runnable:
             Artifact(f"{about.stem}_batch.c", fill("c/batch.c.j2", holes | _batch(program, own))),
         ),
         f"{about.stem}_batch.c",
-        _python(program, other, about, none),
+        fill("python/model.py.j2", python.files(program, other, none, decides=False)),
         tuple(spelling.params[f.name] for f in program.params),
         tuple(spelling.knowns[k.name] for k in program.knowns),
         tuple(spelling.residuals[r.name] for r in program.residuals),
         _blocks(program, spelling),
     )
-
-
-def _python(program: Program, target: Target, about: Facts, none: Golden) -> str:
-    holes = python.holes(program, target, about, none) | {"decides": False}
-    return fill("python/residuals.py.j2", holes)
 
 
 def _blocks(program: Program, spelling: Spelling) -> tuple[Together, ...]:

@@ -28,22 +28,28 @@ class Spelling:
 
     `params`, `coefs`, `knowns`, `states`, `locals`, `tables` map names of the program to
     identifiers (a root by `root:<name>` in `tables`); `inputs` maps (signal, suffix or "") to
-    members of the struct of derivatives.
+    members of the struct of derivatives. With a `base` the code stands beside that of another
+    program, and takes the same parameters and samples.
     """
 
-    def __init__(self, program: Program, target: Target) -> None:
+    def __init__(self, program: Program, target: Target, base: Spelling | None = None) -> None:
         self.target = target
         self.prefix = f"{snake(program.name).upper()}_"
         self._known = {k.name: k for k in program.read}
         self._arrays = {f.name for f in program.coefs if f.size}
         words = target.words
         self.params = spellings((f.name for f in program.params), words)
+        self._base = base
         self.coefs = spellings((f.name for f in program.coefs), words)
         self.knowns = spellings((k.name for k in program.read), words)
         self.states = spellings((f.name for f in program.states), words)
         self.residuals = spellings((r.name for r in program.residuals), words | {"valid"})
         #: the names of the numbers of the residuals: `R1`
         self.numbers = self._numbers(program)
+        if base is not None:
+            self.params |= base.params
+            self.knowns |= base.knowns
+            self.prefix, self.residuals, self.numbers = base.prefix, base.residuals, base.numbers
         called = {name: _wish(name, is_map(rows)) for name, rows in program.tables}
         called |= {f"root:{b.name}": f"root_{b.name}" for b in program.roots}
         free = spellings(called.values(), target.reserved)
@@ -55,6 +61,19 @@ class Spelling:
         self.lines = lines(program)
         self._openings = program.openings
         self.encoders = self._encoders()
+        self._inside = {block.name: self._of_block(block) for block in self.blocks}
+
+    def _of_block(self, block: Block) -> dict[str, str]:
+        """The local variables of a block: what one residual alone computes needs not say whose."""
+        names = dict.fromkeys(
+            s.target.name for s in flat((*block.first, *block.step)) if s.target.space == "local"
+        )
+        own = f"{block.residuals[0]}_" if len(block.residuals) == 1 else ""
+        wishes = {name: name.removeprefix(own) for name in names}
+        if len(set(wishes.values())) < len(wishes):
+            return {name: self.locals[name] for name in names}
+        free = spellings(wishes.values(), self.target.reserved)
+        return {name: free[wish] for name, wish in wishes.items()}
 
     def _numbers(self, program: Program) -> dict[str, str]:
         upper = {r.name: identifier(r.name).upper() for r in program.residuals}
@@ -103,9 +122,9 @@ class Spelling:
             found[key] = own
         return found
 
-    def measured(self, block: Block) -> list[str]:
-        """The members of a sample that a block reads as they are: plain numbers."""
-        plain = (self._known[name] for name in block.knowns)
+    def unheard(self, block: Block) -> list[str]:
+        """The members of a sample that can be NaN and no residual of the block need be so then."""
+        plain = (self._known[name] for name in block.knowns if name not in block.heard)
         return [self.knowns[k.name] for k in plain if k.kind != "mode" and k.counts is None]
 
     def counted(self, block: Block) -> list[tuple[str, str]]:
@@ -164,7 +183,7 @@ class Spelling:
             case "state":
                 return pattern["state"].format(self.states[ref.name])
             case "local":
-                return self.locals[ref.name]
+                return self._inside[block][ref.name] if block else self.locals[ref.name]
             case "residual":
                 return pattern["residual"].format(
                     self.residuals[ref.name], self.prefix + self.numbers[ref.name]

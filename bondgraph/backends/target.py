@@ -34,7 +34,8 @@ class Target(NamedTuple):
     """One folder of codegen/: which template makes which file, and how values are written.
 
     `configure` is the dialect of `configure`, which brings its own exponential function. A member
-    of a struct may not be one of `words`, a local variable not one of `reserved`.
+    of a struct may not be one of `words`, a local variable not one of `reserved`. `extras` are
+    files for who asks for them.
     """
 
     folder: str
@@ -42,6 +43,7 @@ class Target(NamedTuple):
     width: int
     tab: int
     files: tuple[tuple[str, str], ...]
+    extras: Mapping[str, tuple[tuple[str, str], ...]]
     statements: Statements
     reference: Mapping[str, str]
     dialect: Dialect
@@ -73,7 +75,8 @@ def load(folder: str) -> Target:
         data["name"],
         data["width"],
         data["tab"],
-        tuple((f"{folder}/{template}", path) for template, path in data["files"].items()),
+        _paths(folder, data["files"]),
+        {name: _paths(folder, files) for name, files in data["extras"].items()},
         Statements(
             (begin, go_on, end),
             (opening, closing),
@@ -90,3 +93,7 @@ def load(folder: str) -> Target:
         frozenset(data["names"]["words"].split()),
         frozenset((data["names"]["templates"] + data["names"]["words"]).split()),
     )
+
+
+def _paths(folder: str, files: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
+    return tuple((f"{folder}/{template}", path) for template, path in files.items())

@@ -23,11 +23,20 @@ def _number(value: float) -> str:
 class Vectors:
     """What the self-test and the example of one program need, in one language."""
 
-    def __init__(self, program: Program, spelling: Spelling, golden: Golden) -> None:
+    def __init__(
+        self,
+        program: Program,
+        spelling: Spelling,
+        golden: Golden,
+        base: tuple[Program, Golden] | None = None,
+    ) -> None:
+        """With a `base` the program takes the parameters and samples of that one."""
         self.program = program
         self.spelling = spelling
         self.golden = golden
-        self.samples = samples(program, spelling)
+        self.base, base_golden = base or (program, golden)
+        self.parameters = base_golden.parameters | golden.parameters
+        self.samples = samples(self.base, spelling)
         self.derivatives = list(derivatives(program, spelling))
 
     def spoilt(self) -> list[bool]:
@@ -44,8 +53,8 @@ class Vectors:
     def unset(self) -> list[tuple[str, str, float]]:
         """Parameters without a value in the model: identifier, unit, value in the self-test."""
         return [
-            (self.spelling.params[f.name], f.unit, self.golden.parameters[f.name])
-            for f in self.program.params
+            (self.spelling.params[f.name], f.unit, self.parameters[f.name])
+            for f in {f.name: f for p in (self.base, self.program) for f in p.params}.values()
             if f.default is None
         ]
 
@@ -76,6 +85,7 @@ class Vectors:
             "golden_parameters": [
                 f"    parameters->{name} = N({_number(x)});" for name, _, x in self.unset()
             ],
+            "remembers": bool(self.spelling.lines),
             "golden_exact_count": len(self.golden.exact),
             "golden_step_count": len(self.golden.step),
             "golden_tables": [
@@ -97,7 +107,7 @@ class Vectors:
         """How the example reads the samples that `step` needs from the columns of a log."""
         around = _FROM_LOG[self.spelling.target.name]
         found = []
-        for member, known in zip(self.samples, self.program.knowns, strict=True):
+        for member, known in zip(self.samples, self.base.knowns, strict=True):
             if known.sampled:
                 before, behind = around[member.type]
                 found.append(pattern.format(member.name, before.format(stem), known.path, behind))
@@ -111,7 +121,8 @@ class Vectors:
         rows = [_row(members, v, lambda x: f"N({_number(x)})", "{}") for v in vectors]
         lines = _rows(rows or ["{0}"], self.spelling)
         kind = f"{self.spelling.prefix.lower()}{name}"
-        return {"type": kind, "name": f"golden_{name}[]", "lines": lines}
+        return {"type": kind, "name": f"golden_{name}[]", "lines": lines,
+                "exact": name == "derivatives"}  # fmt: skip
 
     def _c_results(self, name: str, vectors: Sequence[Vector], count: int) -> dict[str, object]:
         nan = f"({self.spelling.prefix.lower()}real)NAN"
@@ -124,7 +135,12 @@ class Vectors:
             for v in vectors
         ]
         lines = _rows(rows or ["{{0}}"], self.spelling)
-        return {"type": "golden_result", "name": f"golden_{name}[][{count}]", "lines": lines}
+        return {
+            "type": "golden_result",
+            "name": f"golden_{name}[][{count}]",
+            "lines": lines,
+            "exact": name == "exact",
+        }
 
     # ----------------------------------------------------------------------- Python
 
@@ -148,7 +164,7 @@ class Vectors:
                 for name, unit, _ in self.unset()
             ],
             "golden_parameters": [f"    {name}={_number(x)}," for name, _, x in self.unset()],
-            "golden_exact": self._python_rows("m.Derivatives", self.derivatives, self.golden.exact),
+            "golden_exact": self._python_rows("e.Derivatives", self.derivatives, self.golden.exact),
             "golden_step": self._python_rows("m.Samples", self.samples, self.golden.step),
         }
 
@@ -189,12 +205,12 @@ def _row(
     for member in members:
         name = member.refs[0].name
         if member.type == "bool":
-            held = vector.modes[name]
+            held = vector.modes.get(name, False)
             text = str(held) if named else str(held).lower()
         elif member.type == "count":
-            text = str(vector.counts[name])
+            text = str(vector.counts.get(name, 0))
         else:
-            values = [number(vector.values[ref]) for ref in member.refs]
+            values = [number(vector.values.get(ref, 0.0)) for ref in member.refs]
             text = ", ".join(values)
             if member.size:
                 text = f"({text})" if named else f"{{{text}}}"

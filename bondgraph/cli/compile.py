@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections import Counter
 
 from bondgraph import Compilation, Options
@@ -70,6 +70,19 @@ def arguments(parser: ArgumentParser) -> None:
         f" {', '.join(defaults.targets)})",
     )
     parser.add_argument(
+        "--with",
+        dest="extras",
+        metavar="WHAT",
+        type=_extras,
+        default=(),
+        help="write more: tests, exact, example, separated by commas, each in a folder of its own",
+    )
+    parser.add_argument(
+        "--libm",
+        action="store_true",
+        help="call tanh of the mathematical library, not one that is 1e-8 near it",
+    )
+    parser.add_argument(
         "--check",
         action="store_true",
         help="write nothing; exit with 1 if the files that are there are not what would be written",
@@ -77,6 +90,17 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="print findings, but no result")
     further(parser)
     realised(parser)
+
+
+def _extras(text: str) -> tuple[str, ...]:
+    from bondgraph.backends.emit import EXTRAS
+
+    found = tuple(dict.fromkeys(filter(None, (word.strip() for word in text.split(",")))))
+    for name in found:
+        if name not in EXTRAS:
+            listed = ", ".join(EXTRAS)
+            raise ArgumentTypeError(f"nothing is called {name}; there are {listed}")
+    return found
 
 
 def run(args: Namespace) -> int:
@@ -151,6 +175,7 @@ def _opened(args: Namespace) -> Compilation:
         args.bandwidth = None
     args.rate = args.rate or (Options().rate if tuning is None else tuning.rate)
     compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
+    compilation = compilation.with_options(extras=args.extras, libm=args.libm)
     if tuning is None:
         return compilation
     try:

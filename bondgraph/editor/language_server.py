@@ -231,22 +231,17 @@ class BondGraphServer(LanguageServer):
     def _diagnostic(
         self, document: Document, source: Source, diagnostic: Diagnostic
     ) -> lsp.Diagnostic:
-        labels = list(diagnostic.labels)
-        primary = labels[0] if labels else None
-        related = labels[1:]
-        if primary is None or real_path(primary.span.source.path) != document.path:
-            here = [label for label in labels if label.span.source is source]
+        labels = diagnostic.labels
+        if labels and real_path(labels[0].span.source.path) == document.path:
+            own, related = labels[0].span, labels[1:]
+        else:  # it is about an imported file
+            here = [label.span for label in labels if label.span.source is source]
+            own = here[0] if here else _import_of(document, labels[0].span if labels else None)
             related = labels
-            own = here[0].span if here else _import_of(document, labels[0].span if labels else None)
-            text = diagnostic.message
-        else:
-            own = primary.span
-            text = diagnostic.message
-        if diagnostic.help:
-            text += f"\n{diagnostic.help}"
+        said = (diagnostic.message, diagnostic.help)
         return lsp.Diagnostic(
             range=self.range(own),
-            message=text,
+            message="\n".join(filter(None, said)),
             severity=_SEVERITY[diagnostic.severity],
             code=diagnostic.code,
             source="bondgraph",

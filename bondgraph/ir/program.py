@@ -112,8 +112,15 @@ class Mode(NamedTuple):
     name: str
 
 
+class First(NamedTuple):
+    """Whether this is the first sample after a start: only where both procedures are one.
+
+    See `backends.blocks`, which makes one of `Program.first` and `Program.step`.
+    """
+
+
 Expression: TypeAlias = Const | Ref | Sum | Product | Function | Choice
-Condition: TypeAlias = Compare | Logic | Mode
+Condition: TypeAlias = Compare | Logic | Mode | First
 
 
 def integer_power(value: Function) -> int | None:
@@ -369,7 +376,8 @@ class Opening(NamedTuple):
 class Program(NamedTuple):
     """The residual program of one model. `digest` is a hash of the model and the options.
 
-    `first` runs in place of `step` at the first sample and after every restart. A sample or a
+    `first` runs in place of `step` at the first sample and after every restart; most of its
+    statements are those of `step`. A sample or a
     residual that is not finite restarts the program at the next sample that is.
     """
 

@@ -13,6 +13,7 @@ from bondgraph.ir.program import (
     Condition,
     Const,
     Expression,
+    First,
     Function,
     Logic,
     Mode,
@@ -143,6 +144,8 @@ def read(value: Expression | Condition) -> Formula:
             return Formula(Shape.CHOICE, parts)
         case Compare():
             return Formula(Shape.COMPARE, (read(value.left), read(value.right)), value.op)
+        case First():
+            return Formula(Shape.NAME, (), "first")
         case Logic():
             return Formula(Shape.LOGIC, tuple(map(read, value.args)), value.op)
         case _:

@@ -187,7 +187,7 @@ class Stage:
         for entry in sorted(folder.iterdir()):
             if entry.name.startswith((".", "__")):
                 continue
-            read = entry.is_dir() or entry.name.endswith((".bg", ".md", ".toml", "_residuals.c"))
+            read = entry.is_dir() or entry.name.endswith((".bg", ".md", ".toml", ".c"))
             where = relative(self.place(entry), self.wanted[folder].parent) if read else ""
             lines.append(f"- [{entry.name}]({where})" if read else f"- `{entry.name}`")
         return "\n".join(lines)

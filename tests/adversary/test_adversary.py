@@ -56,7 +56,7 @@ def compiled(path: Path, out: Path) -> dict[str, Any]:
     """The JSON of a compilation in this process; its exit status must fit."""
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
-        status = main(["compile", str(path), "--json", "-o", str(out)])
+        status = main(["compile", str(path), "--json", "-o", str(out), "--with", "tests,exact"])
     answer: dict[str, Any] = json.loads(printed.getvalue())
     assert status == EXIT[answer["status"]]
     assert all(Path(f).is_file() for f in answer["files"])
@@ -66,21 +66,25 @@ def compiled(path: Path, out: Path) -> dict[str, Any]:
 
 def self_tests(out: Path) -> None:
     """The generated Python and C agree with their golden vectors."""
-    run = subprocess.run([sys.executable, "selftest.py"], cwd=out, capture_output=True, check=False)
-    assert run.returncode == 0, run.stdout + run.stderr
+    for test in sorted((out / "tests").glob("selftest*.py")):
+        command = [sys.executable, f"tests/{test.name}"]
+        run = subprocess.run(command, cwd=out, capture_output=True, check=False)
+        assert run.returncode == 0, run.stdout + run.stderr
     gcc = shutil.which("gcc")
     if gcc is None:
         return
-    sources = [str(f) for f in out.glob("*.c") if f.name != "example.c"]
+    code = [str(f) for f in (*out.glob("*.c"), *out.glob("exact/*.c"))]
     flags = "-std=c99 -O0 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror".split()
-    made = subprocess.run(
-        [gcc, *flags, *sources, "-o", str(out / "selftest"), "-lm"],
-        capture_output=True,
-        check=False,
-    )
-    assert made.returncode == 0, made.stderr
-    run = subprocess.run([str(out / "selftest")], cwd=out, capture_output=True, check=False)
-    assert run.returncode == 0, run.stdout + run.stderr
+    flags += [f"-I{out}", f"-I{out / 'exact'}"]
+    for test in sorted((out / "tests").glob("selftest*.c")):
+        made = subprocess.run(
+            [gcc, *flags, str(test), *code, "-o", str(out / "selftest"), "-lm"],
+            capture_output=True,
+            check=False,
+        )
+        assert made.returncode == 0, made.stderr
+        run = subprocess.run([str(out / "selftest")], cwd=out, capture_output=True, check=False)
+        assert run.returncode == 0, run.stdout + run.stderr
 
 
 @pytest.mark.parametrize(

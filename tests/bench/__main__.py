@@ -9,7 +9,17 @@ import time
 from pathlib import Path
 
 import bondgraph
-from tests.bench import alarm, batch, growth, instructions, peers, simulation, toolbox, whole
+from tests.bench import (
+    alarm,
+    batch,
+    cortex,
+    growth,
+    instructions,
+    peers,
+    simulation,
+    toolbox,
+    whole,
+)
 from tests.bench.clock import in_turn, python
 
 ROOT = Path(__file__).parents[2]
@@ -74,6 +84,7 @@ def main() -> None:
     simulation.report(short)
     print()
     instructions.report()
+    cortex.report()
     print()
     batch.report(short)
     print()

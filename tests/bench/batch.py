@@ -29,9 +29,9 @@ def build(c: Compilation, folder: Path) -> Path:
     """The program with the loop over the files of the robot."""
     robot = folder / "robot"
     write(c.artifacts, robot)
-    bounds, program = robot / "threshold", folder / "loop"
-    sources = [HAND / "loop.c", robot / "khepera_residuals.c", bounds / "khepera_threshold.c"]
-    command = ["cc", "-std=c99", "-O2", "-ffp-contract=off", f"-I{robot}", f"-I{bounds}"]
+    program = folder / "loop"
+    sources = [HAND / "loop.c", robot / "khepera.c"]
+    command = ["cc", "-std=c99", "-O2", "-ffp-contract=off", f"-I{robot}"]
     subprocess.run([*command, "-o", str(program), *map(str, sources), "-lm"], check=True)
     return program
 

@@ -12,7 +12,17 @@ import pytest
 import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
-from tests.bench import alarm, batch, families, growth, instructions, peers, simulation, toolbox
+from tests.bench import (
+    alarm,
+    batch,
+    cortex,
+    families,
+    growth,
+    instructions,
+    peers,
+    simulation,
+    toolbox,
+)
 from tests.generated.scale import waves
 
 
@@ -24,9 +34,24 @@ def test_hand_and_generated_step_agree(tmp_path: Path) -> None:
         done = subprocess.run([program, which, "3000"], check=True, capture_output=True, text=True)
         rows.append([line.split() for line in done.stdout.splitlines()])
     for (hand, settled), (generated, valid) in zip(*rows, strict=True):
-        # the friction of the wheel is too small to be seen in r2 and left out of the generated step
-        assert float(hand) == pytest.approx(float(generated), rel=1e-4)
+        assert float(hand) == pytest.approx(float(generated), rel=1e-9)
         assert settled == valid == "1"
+
+
+@pytest.mark.skipif(bool(cortex.missing()), reason="needs gcc-arm-none-eabi and qemu-system-arm")
+def test_a_step_on_the_board_is_small() -> None:
+    """Instructions and bytes are the same on every machine that has this compiler."""
+    found = cortex.measured()
+    assert found.instructions <= 350 and found.text <= 2048 and found.memory <= 120
+
+
+@pytest.mark.skipif(
+    shutil.which("gcc") is None or shutil.which("valgrind") is None, reason="needs gcc, valgrind"
+)
+def test_a_step_takes_no_more_than_by_hand(tmp_path: Path) -> None:
+    program = instructions.build(tmp_path)
+    own, hand = (instructions.counted(program, which) for which in ("generated", "hand"))
+    assert own <= 1.1 * hand
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs cc")

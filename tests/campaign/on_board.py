@@ -18,7 +18,6 @@ from typing import NamedTuple
 import numpy as np
 
 from bondgraph.backends.identifiers import snake
-from bondgraph.backends.write import write
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
 from bondgraph.runtime.diagnosis.tuning import Tuning, bandwidth_for
@@ -70,11 +69,11 @@ def _program(machine: Machine) -> Path:
     """The example of the generated code, compiled with the tuning."""
     folder = Path(tempfile.mkdtemp(prefix="on-board-"))
     c = compiled(machine).tuned(_tuning(machine))
-    write(c.artifacts, folder)
-    source = f"{snake(c.program.name)}_residuals.c"
-    command = ["cc", "-std=c99", "-O2", "example.c", source, "-o", "example", "-lm"]
+    c.write(folder, extras=["example"])
+    files = ["example/example.c", f"{snake(c.program.name)}.c"]
+    command = ["cc", "-std=c99", "-O2", "-I.", *files, "-o", "watch", "-lm"]
     subprocess.run(command, cwd=folder, check=True)
-    return folder / "example"
+    return folder / "watch"
 
 
 def _said(machine: Machine, samples: Array) -> list[Said]:

@@ -76,8 +76,8 @@ def test_the_code_in_the_readme_is_what_the_robot_becomes(update: bool) -> None:
     page = ROOT / "README.md"
     shown = next(t for lang, t in FENCE.findall(page.read_text(encoding="utf-8")) if lang == "c")
     artifacts = bondgraph.compile(ROOT / "models" / "khepera.bg").artifacts
-    code = next(a.text for a in artifacts if a.path.endswith("residuals.c"))
-    start = code.index("    r[KHEPERA_R1] =")
+    code = next(a.text for a in artifacts if a.path == "khepera.c")
+    start = code.index("    const real g0 = ")
     lines = [line.removeprefix("    ") for line in code[start:].splitlines()]
     actual = "".join(f"{line}\n" for line in lines[: shown.count("\n")])
     if update:

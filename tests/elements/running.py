@@ -20,7 +20,6 @@ from numpy.polynomial.polynomial import polyval
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
-from bondgraph.backends.write import write
 from tests.adversary.plant import Plant, Simulator, plain
 from tests.elements.answers import answer, compilation
 from tests.elements.rows import Row
@@ -40,7 +39,7 @@ class Moves(NamedTuple):
 def code_of(model: str, folder: Path) -> tuple[InC, Spelling]:
     """The generated code as a library, and what its structures call the signals."""
     found = compilation(model)
-    write(found.artifacts, folder)
+    found.write(folder, extras=["exact"])
     program = found.program
     return InC(program, folder, snake(program.name)), Spelling(program, load("c"))
 

@@ -15,7 +15,6 @@ from bondgraph.backends.members import derivatives
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
-from bondgraph.backends.write import write
 from bondgraph.exact.signal_algebra import Taylor
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.outline import highest_order
@@ -34,12 +33,12 @@ _DRIVER = """
 #define {PREFIX}_REAL Field
 #define {PREFIX}_CONSTANT(x) Field::decimal(#x)
 field_function field_lookup;
-#include "{stem}_residuals.c"
+#include "{stem}_exact.c"
 extern "C" int run(field_function lookup, const uint64_t *params, const uint64_t *inputs,
                    uint64_t *outputs)
 {{
     {stem}_parameters p;
-    {stem}_monitor m;
+    {stem}_exact_coefficients m;
     {stem}_derivatives d;
     Field r[{PREFIX}_RESIDUALS];
     field_lookup = lookup;
@@ -47,7 +46,7 @@ extern "C" int run(field_function lookup, const uint64_t *params, const uint64_t
     int status = 1;
     /* what is positive, and what lies between two bounds, is a matter of luck here */
     for (int k = 1; status && k < 10000; ++k) {{
-        status = {stem}_configure(&m, &p, Field(k % 100), Field(k / 100), Field(1));
+        status = {stem}_exact_configure(&m, &p, Field(k));
     }}
     {stem}_exact(&m, &d, r);
     for (int k = 0; k < {PREFIX}_RESIDUALS; ++k) outputs[k] = r[k].v;
@@ -99,7 +98,7 @@ def test_exact_over_a_prime_field(model: str, tmp_path: Path, root: Path) -> Non
         pytest.skip("g++ is not installed")
     c = bondgraph.compile(root / "models" / f"{model}.bg")
     program, exprs = c.program, _without_definitions(c)
-    write(c.artifacts, tmp_path)
+    c.write(tmp_path, extras=["exact"])
     stem, spelling = snake(program.name), Spelling(program, load("c"))
     params = [spelling.params[f.name] for f in program.params]
     body = [f"    p.{name}.v = params[{k}];" for k, name in enumerate(params)]
@@ -112,7 +111,7 @@ def test_exact_over_a_prime_field(model: str, tmp_path: Path, root: Path) -> Non
             refs.append(ref)
     source = _DRIVER.format(stem=stem, PREFIX=stem.upper(), body="\n".join(body))
     (tmp_path / "driver.cpp").write_text(source)
-    include = ("-I", str(Path(__file__).parent), "-I", str(tmp_path))
+    include = ("-I", str(Path(__file__).parent), "-I", str(tmp_path), "-I", str(tmp_path / "exact"))
     options = ("-std=c++17", "-O1", "-shared", "-fPIC", *include)
     command = ["g++", *options, "driver.cpp", "-o", "run.so"]
     subprocess.run(command, cwd=tmp_path, check=True)

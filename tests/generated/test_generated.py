@@ -9,13 +9,21 @@ from pathlib import Path
 import pytest
 
 import bondgraph
+from bondgraph.backends.emit import EXTRAS
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.write import write
 from bondgraph.ir.artifact import Artifact
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from tests.generated.scale import waves, worst
-from tests.unit.backends.compilers import WARNINGS, compiler, run
+from tests.unit.backends.compilers import (
+    INCLUDES,
+    WARNINGS,
+    compiler,
+    python_self_test,
+    run,
+    self_test,
+)
 
 _ROOT = Path(__file__).resolve().parent.parent.parent
 _MODELS = [p.stem for p in sorted((_ROOT / "models").glob("*.bg"))]
@@ -48,20 +56,25 @@ def test_is_what_is_committed(model: str, update: bool) -> None:
         assert path.read_text(encoding="utf-8") == artifact.text
 
 
+def _everything(model: str, folder: Path) -> str:
+    """All files of a model, and its stem; none of one that shows a refusal."""
+    stem, artifacts = _artifacts(model)
+    if artifacts:
+        _compilation(model).write(folder, extras=EXTRAS)
+    return stem
+
+
 @pytest.mark.parametrize("model", _MODELS)
 def test_compiles_and_passes_its_own_test(model: str, tmp_path: Path) -> None:
-    stem, artifacts = _artifacts(model)
-    if not artifacts:
+    stem = _everything(model, tmp_path)
+    if not stem:
         return
-    write(artifacts, tmp_path)
-    assert run(sys.executable, "selftest.py", cwd=tmp_path).endswith("PASS\n")
-    assert "alarms" in run(sys.executable, "example.py", cwd=tmp_path)
+    assert python_self_test(tmp_path).endswith("PASS\n")
+    assert "alarms" in run(sys.executable, "example/example.py", cwd=tmp_path)
     real = f"-D{stem.upper()}_FLOAT"
     sanitized = ("-ffp-contract=off", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
     for options in (sanitized, (real,)):
-        sources = ("selftest.c", f"{stem}_residuals.c", "-lm", "-o", "selftest")
-        run(*compiler("gcc"), *WARNINGS, "-O1", *options, *sources, cwd=tmp_path)
-        told = run(tmp_path / "selftest")
+        told = self_test(tmp_path, stem, *WARNINGS, "-O1", *options)
         assert told.endswith("PASS\n") and "FAIL" not in told
 
 
@@ -69,11 +82,10 @@ def test_compiles_and_passes_its_own_test(model: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["clang", "g++", "clang++"])
 def test_no_warning_from_any_compiler(name: str, model: str, tmp_path: Path) -> None:
     command = compiler(name)
-    stem, artifacts = _artifacts(model)
-    write(artifacts, tmp_path)
-    for source in (a.path for a in artifacts if a.path.endswith(".c")):
+    stem = _everything(model, tmp_path)
+    for source in sorted(tmp_path.rglob("*.c")):
         for real in ((), (f"-D{stem.upper()}_FLOAT",)):
-            run(*command, *WARNINGS, *real, "-fsyntax-only", source, cwd=tmp_path)
+            run(*command, *WARNINGS, *INCLUDES, *real, "-fsyntax-only", source, cwd=tmp_path)
 
 
 _UNCERTAIN = ["dc_motor", "khepera", "two_tanks", "slider_crank"]
@@ -82,16 +94,24 @@ _UNCERTAIN = ["dc_motor", "khepera", "two_tanks", "slider_crank"]
 @pytest.mark.parametrize("model", _UNCERTAIN)
 def test_thresholds_agree_in_every_language(model: str, tmp_path: Path) -> None:
     """The self-tests compare C, in double and in float, and Python with the same numbers."""
-    stem, artifacts = _artifacts(model)
-    write(artifacts, tmp_path)
-    folder = tmp_path / "threshold"
-    assert run(sys.executable, "selftest.py", cwd=folder).endswith("PASS\n")
-    for real in ((), (f"-D{stem.upper()}_THRESHOLD_FLOAT",)):
-        sources = ("selftest.c", f"{stem}_threshold.c", "-lm", "-o", "selftest")
-        run(*compiler("gcc"), *WARNINGS, "-O1", "-ffp-contract=off", *real, *sources, cwd=folder)
-        told = run(folder / "selftest")
+    stem = _everything(model, tmp_path)
+    assert python_self_test(tmp_path, "_thresholds").endswith("PASS\n")
+    for real in ((), (f"-D{stem.upper()}_FLOAT",)):
+        options = (*WARNINGS, "-O1", "-ffp-contract=off", *real)
+        told = self_test(tmp_path, stem, *options, of="_thresholds")
         assert told.endswith("PASS\n") and "FAIL" not in told
         assert "PASS step r1" in told
+
+
+@pytest.mark.parametrize("model", _UNCERTAIN)
+def test_thresholds_that_are_left_out_leave_nothing(model: str, tmp_path: Path) -> None:
+    stem = _everything(model, tmp_path)
+    for name, left_out in (("with", ()), ("without", (f"-D{stem.upper()}_NO_THRESHOLDS",))):
+        options = ("-O1", *WARNINGS, *left_out, "-c", f"{stem}.c", "-o", f"{name}.o")
+        run(*compiler("gcc"), *options, cwd=tmp_path)
+    names = run("nm", "--defined-only", "without.o", cwd=tmp_path)
+    assert "threshold" not in names and "bound_r1" not in names and f"{stem}_step" in names
+    assert f"{stem}_threshold_step" in run("nm", "--defined-only", "with.o", cwd=tmp_path)
 
 
 @pytest.mark.parametrize("model", _MODELS)

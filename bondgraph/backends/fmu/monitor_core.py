@@ -35,7 +35,7 @@ def monitor_core(program: Program, bounds: Program | None, units: Mapping[str, s
     inputs = _inputs(programs, listed)
     parameters = _parameters(programs, listed)
     places = _outputs(program, units, listed)
-    parts = [_part(p, inputs, parameters) for p in programs]
+    part = _part(program, bounds, inputs, parameters)
     description = (
         f"Residuals of {program.name}: near zero while the machine is well. Outputs at the end of"
         " a step are of the sample at its begin."
@@ -48,12 +48,12 @@ def monitor_core(program: Program, bounds: Program | None, units: Mapping[str, s
         description,
         tuple(listed.all),
         {
-            "residuals": parts[0],
-            "thresholds": parts[1] if bounds is not None else None,
+            "residuals": part,
+            "thresholds": bounds is not None,
             "places": places,
         },
-        tuple(file for p in programs for file in _files(p)),
-        tuple(f"{facts(p).file}.c" for p in programs),
+        _files(program, bounds),
+        (f"{facts(program).file}.c",),
         step,
         step,
     )
@@ -122,32 +122,37 @@ def _outputs(program: Program, units: Mapping[str, str], listed: Variables) -> d
 
 
 def _part(
-    program: Program, inputs: Mapping[str, int], parameters: Mapping[str, int]
+    program: Program,
+    bounds: Program | None,
+    inputs: Mapping[str, int],
+    parameters: Mapping[str, int],
 ) -> dict[str, object]:
-    """What the template needs of one program."""
+    """What the template needs of both programs, which share samples and parameters."""
     spelling, about = Spelling(program, load("c")), facts(program)
     taken = []
     for member in samples(program, spelling):
         at = inputs.get(member.refs[0].name)
         read = "0" if at is None else _READ[member.type].format(at)
         taken.append(f"{member.name} = {read}")
-    given = [f"{spelling.params[f.name]} = value[{parameters[f.name]}]" for f in program.params]
+    names = dict.fromkeys(f.name for p in (program, bounds) if p is not None for f in p.params)
+    own = spelling if bounds is None else Spelling(bounds, load("c"), spelling)
+    given = [f"{own.params[name]} = value[{parameters[name]}]" for name in names]
+    has_bound = [str(not r.unavailable).lower() for r in (bounds or program).residuals]
     return {
         "stem": about.stem,
         "PREFIX": about.stem.upper(),
         "file": about.file,
         "given": given or ["unused = 0"],
         "taken": taken or ["unused = 0"],
-        "has_bound": [str(not r.unavailable).lower() for r in program.residuals],
+        "has_bound": has_bound,
     }
 
 
-def _files(program: Program) -> list[Artifact]:
+def _files(program: Program, bounds: Program | None) -> tuple[Artifact, ...]:
     """The header and the code, as `compile --target c` writes them."""
-    target, about = load("c"), facts(program)
     values = {f.name: 1.0 if f.default is None else f.default for f in program.params}
-    holes = c.holes(program, target, about, Golden(values, (), ()))  # no self-test goes with it
-    return [
-        Artifact(f"{about.file}.{name}", fill(f"c/residuals.{name}.j2", holes))
-        for name in ("h", "c")
-    ]
+    none = Golden(values, (), ())  # no self-test goes with it
+    holes, file = c.files(program, load("c"), none, bounds=bounds), facts(program).file
+    return tuple(
+        Artifact(f"{file}.{name}", fill(f"c/model.{name}.j2", holes)) for name in ("h", "c")
+    )

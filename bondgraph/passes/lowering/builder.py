@@ -26,7 +26,7 @@ from bondgraph.ir.program import (
     Ref,
 )
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure
-from bondgraph.passes.lowering.program_names import OPTION, Names, brief, identifier
+from bondgraph.passes.lowering.program_names import OPTION, Names, brief, identifier, spoken
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -146,7 +146,7 @@ class Builder:
 
     def hoist(self, value: Expr) -> Expression:
         """A constant part of a procedure as a coefficient."""
-        wish = identifier(brief(value)) if value.op is Op.SYM else "g"
+        wish = identifier(brief(value)) if value.op is Op.SYM else spoken(value)
         return self.coef(value, wish, brief(value), self.origin)
 
     def array(self, wish: str, size: int, doc: str, origin: Span) -> str:
@@ -163,7 +163,7 @@ class Builder:
         """The statements that compute all coefficients; each stands after what it rests on."""
         out: list[Assignment] = list(self.prelude)
         resolved = self.resolve([w.value for w in self._wanted])
-        work = Procedure(self.pool, self.leaf, out.append, self.names, "t")
+        work = Procedure(self.pool, self.leaf, out.append, self.names, "")
         places: dict[Expr, Span | None] = {}
         for want, root in zip(self._wanted, resolved, strict=True):
             for node in topological([root], stop=places.__contains__):

@@ -39,7 +39,7 @@ class Exactly:
             self.leaf,
             self.statements.append,
             Names(),
-            "t",
+            "",
             builder.hoist,
             builder.is_constant,
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import exp, factorial
 
-from bondgraph.ir.program import Product, Ref
+from bondgraph.ir.program import Expression, Product, Ref
 from bondgraph.passes.lowering.builder import Builder
 
 
@@ -45,6 +45,13 @@ class Filter:
         self.count = pool.mul(self.rate, self.rest)
         self.half = pool.scale(Fraction(1, 2), time)
         self.half_twelfth = pool.scale(Fraction(1, 24), time)
+
+    def coefficients(self, builder: Builder) -> tuple[Expression, Expression]:
+        """a and b of a stage."""
+        return (
+            builder.coef(self.a, "a", "filter: what is left of a memory a sample later"),
+            builder.coef(self.b, "b", "filter: weight of a sample, new and a sample later"),
+        )
 
 
 def settle(stages: int, part: float = 1e-3) -> float:

@@ -33,6 +33,7 @@ from bondgraph.passes.lowering.builder import Builder, Signal
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.luenberger import Luenberger
+from bondgraph.passes.lowering.near_functions import near_functions
 from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.program_names import brief, identifier, short
@@ -60,7 +61,8 @@ class LowerOptions(NamedTuple):
     no trace of the sampling, and the highest visible frequency (rate/10 in Hz) is well above.
     `extra_order` stages more than the highest derivative; `resolution` is the relative size below
     which a term cannot be seen (12 bits). `time_unit` in s is what exact counts derivatives in,
-    by default 1 s, or what keeps the coefficients of very long residuals near one.
+    by default 1 s, or what keeps the coefficients of very long residuals near one. With `libm` step
+    calls the functions of the library, else some that are near them (`algebra.near`).
     """
 
     rate: float = 1000.0
@@ -68,6 +70,7 @@ class LowerOptions(NamedTuple):
     extra_order: int = 1
     resolution: float = 2.0**-12
     time_unit: float | None = None
+    libm: bool = False
 
 
 DEFAULT = LowerOptions()
@@ -177,6 +180,7 @@ def lower(
         openings=tuple(low.opening for low in lowered if low.opening is not None),
     )
     program = with_tables(pruned(program), graph.pool)
+    program = program if options.libm else near_functions(program)
     return program._replace(digest=digest(program, graph.source.text))
 
 

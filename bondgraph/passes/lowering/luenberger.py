@@ -108,7 +108,7 @@ class Luenberger(Chain):
             return memory.get(node) or self._leaf(node, False)
 
         made = self.builder.hoist, self.builder.is_constant
-        work = Procedure(self.pool, leaf, out.append, self.names, f"{self.name}_t", *made)
+        work = Procedure(self.pool, leaf, out.append, self.names, f"{self.name}_", *made)
         *found, shown = work.values([*new, value], self.origin)
         kept = []
         for state, expression in zip(memory.values(), found, strict=True):

@@ -74,9 +74,13 @@ class Window:
         self.states.append(Field(name, "", "", doc, None, self._origin))
         return Ref("state", name)
 
-    def _write(self, wish: str, value: Expression, comment: str) -> Ref:
+    def _write(
+        self, wish: str, value: Expression, comment: str, start: Expression | None = None
+    ) -> Ref:
+        """A local value; `start` is what it is on the first sample, if that is something else."""
         target = Ref("local", self.names.new(f"{self._name}_{wish}"))
-        self.step.append(Assign(target, value, f"{self._name}: {comment}", self._origin))
+        for out, own in ((self.step, value), (self.first, value if start is None else start)):
+            out.append(Assign(target, own, f"{self._name}: {comment}", self._origin))
         return target
 
     def _keep(self, state: Ref, value: Expression, start: Expression, comment: str) -> None:
@@ -93,7 +97,7 @@ class Window:
             return ONE
         condition = same[0] if len(same) == 1 else Logic("and", tuple(same))
         named = " and ".join(modes)
-        kept = self._write("kept", Choice(condition, ONE, ZERO), f"0 where {named} changes")
+        kept = self._write("kept", Choice(condition, ONE, ZERO), f"0 where {named} changes", ONE)
         for state, mode in zip(self.states[1:], modes, strict=True):
             now = Choice(Mode(mode), ONE, ZERO)
             self._keep(Ref("state", state.name), now, now, f"{mode} for the next sample")
@@ -107,8 +111,8 @@ class Window:
         pace = coef(steps, f"{self._name}_pace", "part of the start that a sample is")
         ahead = Function("min", (ONE, Sum(((True, progress), (True, pace)))))
         value = ahead if self.kept == ONE else Product((self.kept, ahead))
-        u = self._write("u", value, "how much of the start is over")
-        self._keep(progress, u, ZERO, "the same, for the next sample")
+        u = self._write("u", value, "how much of the start is over", ZERO)
+        self._keep(progress, u, u, "the same, for the next sample")
         self.phi: list[Expression] = []
         if self.order is None:
             return

@@ -31,7 +31,7 @@ from bondgraph.ir.program import (
     Sum,
 )
 from bondgraph.notation.line import show
-from bondgraph.passes.lowering.program_names import Names, brief
+from bondgraph.passes.lowering.program_names import Names, brief, spoken
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -138,7 +138,7 @@ class Procedure:
         no: tuple[Assignment, ...] = (),
     ) -> Ref:
         """A value as a statement; `yes` and `no` are what the sides of a choice need."""
-        target = Ref("local", self.names.new(self.prefix))
+        target = Ref("local", self.names.new(f"{self.prefix}{spoken(node)}"))
         place = self._origin.get(node) if isinstance(self._origin, Mapping) else self._origin
         if isinstance(value, Choice) and (yes or no):
             self.append(Branch(target, value, yes, no, brief(node), place))

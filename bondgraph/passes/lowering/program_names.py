@@ -45,6 +45,52 @@ class Names:
         return name
 
 
+def spoken(node: Expr) -> str:
+    """What a person would call a value, as an identifier: `N_over_tau0`, `tanh_x`, `R_plus_L`.
+
+    Of names of the model the last part is taken; what has more than three in it is a `sum`, a
+    `product` or the like; `scaled_` stands before what has a number in front.
+
+    >>> from bondgraph.ir.expr import Kind, Pool
+    >>> pool = Pool()
+    >>> N, tau = (pool.symbol(f"m[1].{x}", Kind.CONST) for x in ("N", "tau0"))
+    >>> spoken(pool.div(N, pool.scale(4, tau))), spoken(pool.add((1, N), (-1, tau)))
+    ('scaled_N_over_tau0', 'N_minus_tau0')
+    """
+    if node.op is Op.SYM:
+        name = _spoken(node.symbol.name).rpartition(".")[2]
+        return identifier(_INDEX.sub("", name)) if name else "value"
+    if node.op is Op.FN:
+        return identifier(f"{node.name.partition(':')[0]}_x")
+    if node.op is Op.ADD and len(node.args) == 1:
+        return f"scaled_{spoken(node.args[0])}"
+    if node.op is Op.MUL and len(node.args) <= 3:
+        above = [a for a, e in node.factors if e > 0]
+        below = [a for a, e in node.factors if e < 0]
+        if all(a.op is Op.SYM for a in node.args):
+            words = "_times_".join(map(spoken, above)) or "one"
+            return words + "".join(f"_over_{spoken(a)}" for a in below)
+    if node.op is Op.ADD and len(node.args) <= 3:
+        terms = sorted(node.terms, key=lambda t: t[0] < 0)
+        if all(a.op is Op.SYM for a in node.args) and terms[0][0] > 0:
+            (_, first), *more = terms
+            return spoken(first) + "".join(
+                f"_{'plus' if c > 0 else 'minus'}_{spoken(a)}" for c, a in more
+            )
+    return _KINDS.get(node.op, "value")
+
+
+_KINDS = {
+    Op.ADD: "sum",
+    Op.MUL: "product",
+    Op.IF: "choice",
+    Op.INT: "integral",
+    Op.ROOT: "root",
+    Op.LOGIC: "holds",
+    Op.CMP: "holds",
+}
+
+
 def _longer(node: Expr, most: int) -> bool:
     """Whether an expression that is written out, shared parts as often as used, has more nodes."""
     stack = [node]
@@ -54,12 +100,16 @@ def _longer(node: Expr, most: int) -> bool:
     return most < 0
 
 
-def brief(node: Expr, most: int = 90) -> str:
-    """An expression for a comment: at most so many characters, `Int(x)` where it starts at 0."""
-    if _longer(node, 2 * most):
-        return "..."
-    text = show(node, {s: _spoken(s.symbol.name) for s in symbols(node)})
-    return text if len(text) <= most else text[: most - 4] + " ..."
+def brief(node: Expr, most: int = 240) -> str:
+    """An expression for a comment, `Int(x)` where it starts at 0; one that is longer by its kind.
+
+    A formula is never cut: half of one says less than a word.
+    """
+    if not _longer(node, 2 * most):
+        text = show(node, {s: _spoken(s.symbol.name) for s in symbols(node)})
+        if len(text) <= most:
+            return text
+    return f"a {spoken(node)}"
 
 
 def _spoken(name: str) -> str:
@@ -73,7 +123,7 @@ def _spoken(name: str) -> str:
 
 def short(node: Expr, order: int = 0) -> str:
     """A signal with its derivative the way it is written by hand: we'', D(we, 5), Int(we)."""
-    text = brief(node, 60)
+    text = brief(node)
     if order < 0:
         return f"Int({text})" if order == -1 else f"Int(Int({text}))"
     if order > 3 or (order and node.op is not Op.SYM):

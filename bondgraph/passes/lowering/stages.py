@@ -4,7 +4,9 @@ With H = 1/(1 + D/w) is D = w (1 - H)/H, so that D**k H**n = w**k H**(n-k) (1-H)
 sum_k D**k g_k over (1 + D/w)**n is a polynomial in H whose coefficients are linear in the samples.
 Horner's rule makes it r = H(v1 + H(v2 + ... + H vn)) + v0. What has the same order is summed first.
 
-A stage is y = s + b u, then s = a y + b u (`Filter`), and its D is the trapezoid rule: D T = 2
+A stage is y = s + b u, then s = a y + b u (`Filter`). On the first sample s = 0, b = 1 and a is
+minus what b is else: y = u, and what is kept is that of a stage at rest, so that `first` and `step`
+are one and the same but for these numbers. D of a stage is the trapezoid rule: D T = 2
 tanh(p T/2). Taken for p it is off by (p T)**2/12, and that is what remains of large terms that
 cancel. But p = D (1 + (D T)**2/12) to fourth order, so that there is one filter F which all terms
 pass, and each comes out as a polynomial in D:
@@ -23,14 +25,26 @@ from math import comb
 from bondgraph.algebra.derivative import TooManyOperations, operations
 from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.ir.normal import Term
-from bondgraph.ir.program import Assign, Assignment, Expression, Field, Product, Ref, Sum
+from bondgraph.ir.program import (
+    Assign,
+    Assignment,
+    Const,
+    Expression,
+    Field,
+    Product,
+    Ref,
+    Sum,
+)
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder, Signal
 from bondgraph.passes.lowering.exactly import LARGEST, label, total
 from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.integrals import gathered
-from bondgraph.passes.lowering.procedure import ONE, Procedure, positive_part
+from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure, positive_part
 from bondgraph.passes.lowering.program_names import Names, identifier, short
+
+#: Says of a statement of `first` that it only empties the memory.
+BEGIN = "nothing is remembered yet"
 
 
 class Parts(dict[int, list[tuple[bool, Expression]]]):
@@ -60,6 +74,7 @@ class Chain:
         self.origin = residual.closing.origin
         self.stages = stages
         self.first: list[Assignment] = []
+        self._begun = 0  # statements of `first` that only empty the memory
         self.step: list[Assignment] = []
         self.states: list[Field] = []
         self.names = names or Names()
@@ -68,6 +83,8 @@ class Chain:
         self._speeds: dict[str, Expression] = {}
         self._filtered: dict[tuple[Expr, int], Expression] = {}
         self._ladders: dict[Expr, list[Expression]] = {}
+        #: a and b of all stages, once they are there; chains that run together may share them.
+        self.gains: dict[str, Ref] = {}
         self._static = self._procedure(self._sample)
         self._moving = self._procedure(self._smooth)
 
@@ -120,19 +137,34 @@ class Chain:
 
     def _stage(self, entry: Expression, wish: str, comment: str) -> Expression:
         """One first-order stage: its output at this sample."""
-        coef, f = self.builder.coef, self.filter
-        state = self._state(f"s{wish}", f"memory of {comment}")
+        a, b = self._gains()
+        state = self._empty(f"s{wish}", f"memory of {comment}")
         output = Ref("local", self.names.new(f"{self.name}_y{wish}"))
-        a = coef(f.a, "a", "filter: what is left of a memory a sample later")
-        b = coef(f.b, "b", "filter: weight of a sample, new and a sample later")
-        rest = coef(f.rest, "rest", "filter: 1 - b, the memory of a constant 1")
-        value = _plus(state, Product((b, entry)))
-        kept = _plus(Product((a, output)), Product((b, entry)))
-        self.step.append(Assign(output, value, comment, self.origin))
-        self.step.append(Assign(state, kept, f"{comment}: memory", self.origin))
-        self.first.append(Assign(output, entry, f"{comment}, at rest", self.origin))
-        self.first.append(Assign(state, Product((rest, entry)), f"{comment}: memory", self.origin))
+        new = Product((b, entry))
+        self._both(Assign(output, _plus(state, new), comment, self.origin))
+        kept = _plus(Product((a, output)), new)
+        self._both(Assign(state, kept, comment, self.origin))
         return output
+
+    def _gains(self) -> tuple[Ref, Ref]:
+        """a and b of a stage: those of a stage at rest on the first sample."""
+        if not self.gains:
+            a, b = self.filter.coefficients(self.builder)
+            start: Expression = Product((Const(-1.0), b))
+            pairs = (("a", a, start), ("b", b, ONE))
+            for at, (name, usual, at_first) in enumerate(pairs):
+                gain = self.gains[name] = Ref("local", self.names.new(f"{self.name}_{name}"))
+                comment = f"{self.name}: a stage of the filter; on the first sample it is at rest"
+                self.step.insert(at, Assign(gain, usual, comment, self.origin))
+                self.first.insert(self._begun + at, Assign(gain, at_first, comment, self.origin))
+        return self.gains["a"], self.gains["b"]
+
+    def _empty(self, wish: str, doc: str) -> Ref:
+        """A state that is 0 at the start."""
+        state = self._state(wish, doc)
+        self.first.insert(self._begun, Assign(state, ZERO, BEGIN, self.origin))
+        self._begun += 1
+        return state
 
     def _signed(self, value: Expr, wish: str, doc: str) -> tuple[bool, Expression]:
         sign, size = positive_part(self.pool, value)
@@ -191,21 +223,19 @@ class Chain:
 
         p**k F is the term of degree k less (K-k) (w T)**2/12 in that of degree k+2.
         """
-        found, whole = Parts(), dict[int, Expression]()
+        found, whole = Parts(), dict[int, tuple[bool, Expression]]()
         for k in range(self.highest + 2):
             parts = list(orders.get(k, []))
             if parts and k < self.highest:
-                whole[k] = self._named(parts, f"g{k}", f"{self.name}: terms of order {k}")
-                parts = [(True, whole[k])]
+                comment = f"{self.name}: terms of order {k}"
+                parts = [self._one(parts, f"g{k}", comment)]
+                whole[k] = parts[0]
             parts += bare.get(k, [])
             if k - 2 in whole:
-                parts.append((False, self._missed(k - 2, whole[k - 2])))
-            if k and len(parts) > 1:
-                parts = [(True, self._named(parts, f"d{k}", f"{self.name}: degree {k}"))]
-            elif k and parts:
-                ((sign, value),) = parts
-                named = self._named([(True, value)], f"d{k}", f"{self.name}: degree {k}")
-                parts = [(sign, named)]
+                sign, value = whole[k - 2]
+                parts.append((not sign, self._missed(k - 2, value)))
+            if k and parts:
+                parts = [self._one(parts, f"d{k}", f"{self.name}: degree {k}")]
             if parts:
                 found[k] = parts
         return found
@@ -222,6 +252,13 @@ class Chain:
         coef = self.builder.coef(weight, f"bend{off}", doc)
         return self._within(f"e{k}", Product((coef, value)), f"{self.name}: error of order {k}")
 
+    def _one(
+        self, parts: list[tuple[bool, Expression]], wish: str, comment: str
+    ) -> tuple[bool, Expression]:
+        """Terms as one value, with a sign before it where all of them are negative."""
+        sign = any(positive for positive, _ in parts)
+        return sign, self._named([(positive == sign, v) for positive, v in parts], wish, comment)
+
     def _named(self, parts: list[tuple[bool, Expression]], wish: str, comment: str) -> Expression:
         """A sum that is read more than once."""
         value = total(parts)
@@ -229,22 +266,39 @@ class Chain:
 
     def _horner(self, degrees: Parts, outside: list[tuple[bool, Expression]]) -> Expression:
         """All stages: what comes out at this sample."""
-        inputs = Parts({0: outside})
-        for k, parts in degrees.items():
-            for j in range(k + 1):
-                number = comb(k, j)
-                for sign, value in parts:
-                    part = value if number == 1 else Product((_number(self, number), value))
-                    inputs.add(self.stages - k + j, sign == (j % 2 == 0), part)
+        powers = self._powers_of_h(degrees)
+        inputs = Parts({0: list(outside)})
+        for at, terms in enumerate(powers, self.stages + 1 - len(powers)):
+            inputs.setdefault(at, []).extend(terms)
         output: Expression | None = None
         for m in range(self.stages, 0, -1):
             parts = list(inputs.get(m, []))
             if output is not None:
                 parts.insert(0, (True, output))
             if parts:
-                entry = self._within(f"u{m}", total(parts), f"{self.name}: input of stage {m}")
+                entry = self._within(f"u{m}", total(parts), f"{self.name}: stage {m}")
                 output = self._stage(entry, f"{m}", f"{self.name}: stage {m}")
         return total([*([] if output is None else [(True, output)]), *inputs[0]])
+
+    def _powers_of_h(self, degrees: Parts) -> list[list[tuple[bool, Expression]]]:
+        """The factors of H**0, H**1, ... in sum_k d_k H**(m-k) (1-H)**k, m the highest degree.
+
+        Multiplied by 1-H and joined by d_k, from the highest to the lowest k, this takes additions
+        and nothing else.
+        """
+        found: list[list[tuple[bool, Expression]]] = []
+        for k in range(max(degrees, default=-1), -1, -1):
+            above: list[list[tuple[bool, Expression]]] = []
+            for i, terms in enumerate(found):
+                if len(terms) > 1:
+                    comment = f"{self.name}: the filter multiplied out"
+                    terms = [(True, self._within(f"p{k + 1}_{i}", total(terms), comment))]
+                above.append(terms)
+            found = [
+                [*now, *((not sign, value) for sign, value in before)]
+                for now, before in zip([*above, degrees.get(k, [])], [[], *above], strict=True)
+            ]
+        return found
 
     def _speed(self, signal: Signal) -> Expression:
         """H D of an encoder, from the counts of this sample: no position is formed."""
@@ -255,18 +309,15 @@ class Chain:
         coef, f = self.builder.coef, self.filter
         factor = self.pool.mul(f.count, signal.scale)
         gain = coef(factor, f"{signal.name}_gain", f"speed of {signal.declared.name} for one count")
-        a = coef(f.a, "a", "filter: what is left of a memory a sample later")
-        state = self._state(f"{signal.name}_speed", f"filtered speed of {signal.declared.name}")
+        a, _ = f.coefficients(self.builder)
+        state = self._empty(f"{signal.name}_speed", f"filtered speed of {signal.declared.name}")
         speed = Ref("local", self.names.new(f"{self.name}_{signal.name}_speed"))
         self.builder.sampled[signal.name] = None
         count = Ref("increment", signal.name)
         comment = f"filtered speed of {signal.declared.name}"
         value = _plus(Product((a, state)), Product((gain, count)))
-        self.step.append(Assign(speed, value, comment, self.origin))
-        self.step.append(Assign(state, speed, comment, self.origin))
-        zero = self.builder.number(self.pool.zero)
-        self.first.append(Assign(speed, zero, f"{comment}, at rest", self.origin))
-        self.first.append(Assign(state, speed, comment, self.origin))
+        self._both(Assign(speed, value, comment, self.origin))
+        self._both(Assign(state, speed, comment, self.origin))
         self._speeds[signal.name] = speed
         return speed
 
@@ -327,34 +378,38 @@ class Chain:
         """The integral of a value since the start."""
         half = self.builder.coef(self.filter.half, "half_time", "half the sample time")
         state = self._state("q", f"memory of {comment}")
-        value = Ref("local", self.names.new(f"{self.name}_int"))
+        value = Ref("local", self.names.new(f"{self.name}_area"))
         gain = Product((half, rate))
+        comment = f"{self.name}: its integral since the start, by the trapezoid rule"
         self.step.append(Assign(value, _plus(state, gain), comment, self.origin))
-        self.step.append(Assign(state, _plus(value, gain), f"{comment}: memory", self.origin))
-        zero = self.builder.number(self.pool.zero)
-        self.first.append(Assign(value, zero, f"{comment}, at the start", self.origin))
-        self.first.append(Assign(state, gain, f"{comment}: memory", self.origin))
+        self.first.append(Assign(value, ZERO, comment, self.origin))
+        self._both(Assign(state, _plus(value, gain), comment, self.origin))
         return value
 
-    def _less_slope(self, value: Expression, rate: Expression, comment: str) -> Expression:
-        """An integral as it stands, without what the trapezoid rule is off by.
+    def _adams(self, rate: Expression, comment: str) -> Expression:
+        """The integral since the start of what is given times sample_time/24, as it stands.
 
-        That is T**2/12 times the slope of the rate, T/24 times its difference backwards over three
-        samples: together the implicit rule of Adams, of fourth order.
+        That is the trapezoid rule less T**2/12 times the slope of the rate, which is T/24 times its
+        difference backwards over three samples: together the implicit rule of Adams, of fourth
+        order. The sum of rates is what that rule has next to them, so that it costs three products.
         """
-        weight = self.builder.coef(self.filter.half_twelfth, "half_twelfth", "sample_time/24")
-        last = self._state("rate1", f"{comment}: rate a sample before")
-        before = self._state("rate2", f"{comment}: rate two samples before")
-        three, four = (_number(self, number) for number in (3, 4))
-        now, past = Product((three, rate)), Product((four, last))
-        slope = Sum(((True, now), (False, past), (True, before)))
+        total = self._state("q", f"memory of {comment}")
+        last = self._state("rate1", f"what is integrated in {self.name}, a sample before")
+        before = self._state("rate2", f"what is integrated in {self.name}, two samples before")
+        twelve, nine, four, all_of_it = (
+            Product((_number(self, number), value))
+            for number, value in ((-12, rate), (9, rate), (4, last), (24, rate))
+        )
+        note = f"{self.name}: the integral is 0 at the start"
+        for state, value in ((total, twelve), (last, rate), (before, rate)):
+            self.first.append(Assign(state, value, note, self.origin))
         target = Ref("local", self.names.new(f"{self.name}_integral"))
-        less = Sum(((True, value), (False, Product((weight, slope)))))
-        self.step.append(Assign(target, less, comment, self.origin))
-        self.step.append(Assign(before, last, f"{comment}: memory", self.origin))
-        self.first.append(Assign(target, value, comment, self.origin))
-        self.first.append(Assign(before, rate, f"{comment}: memory", self.origin))
-        self._both(Assign(last, rate, f"{comment}: memory", self.origin))
+        value = Sum(((True, total), (True, nine), (True, four), (False, before)))
+        note = f"{self.name}: its integral since the start, by the rule of Adams"
+        self._both(Assign(target, value, note, self.origin))
+        self._both(Assign(total, Sum(((True, total), (True, all_of_it))), note, self.origin))
+        self._both(Assign(before, last, note, self.origin))
+        self._both(Assign(last, rate, note, self.origin))
         return target
 
     def _change(self, value: Expression, comment: str) -> Expression:
@@ -374,7 +429,7 @@ class Chain:
             leaf,
             self._both,
             self.names,
-            f"{self.name}_t",
+            f"{self.name}_",
             self.builder.hoist,
             self.builder.is_constant,
         )
@@ -427,10 +482,13 @@ class Chain:
         if inner.op is Op.DER:
             value = self._change(procedure.value(inner.args[0], self.origin), f"change of {words}")
         else:
-            rate = procedure.value(gathered(self.pool, inner, self.builder.zero_start), self.origin)
-            comment = f"integral of {words}"
-            rate = self._rate(rate, comment)
-            value = self._less_slope(self._trapezoid(rate, comment), rate, comment)
+            part = self.pool.add(
+                *((c, self.pool.mul(self.filter.half_twelfth, term)) for c, term in inner.terms)
+            )
+            rate = procedure.value(gathered(self.pool, part, self.builder.zero_start), self.origin)
+            value = self._adams(
+                self._rate(rate, f"sample_time/24 times {words}"), f"integral of {words}"
+            )
         if node.symbol == self.builder.zero_start.symbol:
             return value
         start = self.pool.symbol(node.symbol.name, node.symbol.kind)

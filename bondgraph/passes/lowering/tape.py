@@ -91,7 +91,7 @@ def large(
         table.append(TapeOp(target, source, edge.shift, at, length_, fresh))
     resolved = builder.resolve(list(scales))
     before: list[Assignment] = []
-    work = Procedure(builder.pool, builder.leaf, before.append, builder.names, "t")
+    work = Procedure(builder.pool, builder.leaf, before.append, builder.names, "")
     values = work.values(resolved, origin)
     outputs = [TapeOutput(arrays[f.atom][0], where[f.node], f.degree + 1) for f in tape.leaves]
     statement = PolynomialTape(

@@ -27,6 +27,7 @@ from bondgraph.passes.lowering.exactly import LARGEST
 from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.lower import LowerOptions, digest, with_tables
 from bondgraph.passes.lowering.luenberger import Luenberger
+from bondgraph.passes.lowering.near_functions import near_functions
 from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.prune import pruned
@@ -107,6 +108,7 @@ def thresholds(
     }:
         return None
     made = with_tables(pruned(made), graph.pool)
+    made = made if options.libm else near_functions(made)
     return made._replace(digest=digest(made, graph.source.text))
 
 
@@ -138,6 +140,7 @@ def _threshold(
     if window is not None:
         out.first, out.step, out.states = [*window.first], [*window.step], [*window.states]
         out.opening = window.opening
+    gains: dict[str, Ref] = {}  # of all stages
     for number, share in enumerate(found, 1):
         form = normalise(builder.graph.pool, share.expr, LIMIT, builder.initials)
         if form.tape is not None:
@@ -147,6 +150,7 @@ def _threshold(
             continue
         name = f"{info.name}_w{number}"
         chain = switched.chain(residual._replace(name=name), info.stages, window)
+        chain.gains = gains
         try:
             chain.run(form.terms, f"{info.path}: {_named(share)}")
         except TooManyOperations:

@@ -18,7 +18,7 @@ from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import label, total
 from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.opening import Window
-from bondgraph.passes.lowering.procedure import ONE, ZERO
+from bondgraph.passes.lowering.procedure import ONE
 from bondgraph.passes.lowering.program_names import short
 from bondgraph.passes.lowering.stages import Chain, Parts, order
 
@@ -65,9 +65,7 @@ class WindowedChain(Chain):
                 else:
                     orders.add(k, True, Product((phi, total(own_parts))))
         output = self._horner(self._bent(orders, bare), [])
-        target = Ref("residual", self.name)
-        self.step.append(Assign(target, output, text, self.origin))
-        self.first.append(Assign(target, ZERO, text, self.origin))
+        self._both(Assign(Ref("residual", self.name), output, text, self.origin))
 
     def _fade(self, atom: Expr, terms: list[Term], faded: list[Parts]) -> None:
         """Add w**k c of an atom, with each derivative of the window that goes with it."""
@@ -115,22 +113,13 @@ class WindowedChain(Chain):
         bare.add(1, False, Product((phi, rate)))
         bare.add(0, True, Product((change, rate)))
 
-    def _within(self, wish: str, value: Expression, comment: str) -> Expression:
-        """A value of the chain: at the first sample the window is closed, and all is zero."""
-        target = Ref("local", self.names.new(f"{self.name}_{wish}"))
-        self.step.append(Assign(target, value, comment, self.origin))
-        return target
-
     def _stage(self, entry: Expression, wish: str, comment: str) -> Expression:
         """One first-order stage, which forgets where the window is closed."""
-        coef, f = self.builder.coef, self.filter
-        state = self._state(f"s{wish}", f"memory of {comment}")
-        a = coef(f.a, "a", "filter: what is left of a memory a sample later")
-        b = coef(f.b, "b", "filter: weight of a sample, new and a sample later")
+        a, b = self.filter.coefficients(self.builder)
+        state = self._empty(f"s{wish}", f"memory of {comment}")
         kept = state if self.window.kept == ONE else Product((self.window.kept, state))
         new = Product((b, entry))
         output = self._within(f"y{wish}", total([(True, kept), (True, new)]), comment)
         memory = total([(True, Product((a, output))), (True, new)])
-        self.step.append(Assign(state, memory, f"{comment}: memory", self.origin))
-        self.first.append(Assign(state, ZERO, f"{comment}: memory", self.origin))
+        self._both(Assign(state, memory, f"{comment}: memory", self.origin))
         return output

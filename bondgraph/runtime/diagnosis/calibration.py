@@ -21,13 +21,14 @@ from bondgraph.runtime.diagnosis.hypotheses import (
     sized,
 )
 from bondgraph.runtime.diagnosis.noise import noise, uncovered
-from bondgraph.runtime.diagnosis.rows import Row, weight
+from bondgraph.runtime.diagnosis.row_averages import lasting
+from bondgraph.runtime.diagnosis.rows import Row, averaged, weight
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
-_TESTS = 3  # of each residual: samples, sums of rows, how loud rows are
+_TESTS = 4  # of each residual: samples, sums of rows and of averages, how loud rows are
 _TAIL = 3.29  # standard deviations that one normal sample in a thousand exceeds
 _ABOVE = 1.2  # times the largest excess of a healthy machine that a limit stays above
 _CHUNK = 5000  # samples at a time
@@ -107,8 +108,8 @@ def tune(
 class _Noise(NamedTuple):
     """Of one log: how many valid samples, by residual the upward crossings of its mean, the level
     that one sample in a thousand exceeds beside it, the largest excess over the threshold to either
-    side; the rows, and what is left of them beside parameters and is not covered by tolerances; the
-    largest threshold."""
+    side; the rows, and what is left of them beside parameters and is not covered by tolerances, and
+    of their averages; the largest threshold."""
 
     rows: int
     crossings: Array
@@ -116,6 +117,7 @@ class _Noise(NamedTuple):
     excess: Array
     every: tuple[Row, ...]
     rest: Array
+    averages: Array
     bound: Array
 
 
@@ -159,7 +161,10 @@ class _Work:
             for k in range(self.every - 1, len(slopes), self.every):
                 own = [x[k] for x in (*batch, doubt, slopes)]
                 history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
-                every.append(Row(0.0, samples[:0], self.engine, *own))
+                block = slice(k + 1 - self.every, k + 1)
+                mean = averaged(batch.value[block], batch.valid[block], slopes[block])
+                row = Row(0.0, samples[:0], self.engine, *own)
+                every.append(row._replace(average=mean))
         found = history.fit()
         rest, spaced, excess, rows = [], [], [], 0
         bound = np.zeros(len(self.engine.residuals))
@@ -180,6 +185,7 @@ class _Work:
             np.max(excess, axis=0),
             tuple(every),
             uncovered(np.concatenate(spaced), np.array([row.bound for row in every])),
+            _averages(every, found),
             bound,
         )
 
@@ -242,6 +248,16 @@ class _Whole:
         return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes, doubt
 
 
+def _averages(rows: Sequence[Row], found: Array) -> Array:
+    """What is left of the averages of rows, (rows, residuals), NaN where one is not whole."""
+    left = []
+    for row in rows:
+        assert row.average is not None
+        value, valid, slopes = row.average
+        left.append(np.where(valid, value - found @ slopes, np.nan))
+    return uncovered(np.array(left), np.array([row.bound for row in rows]))
+
+
 def _limits(
     engine: Engine, logs: Sequence[_Noise], false_alarms: float, stands: Sequence[bool],
     spread: Array,
@@ -250,10 +266,12 @@ def _limits(
     tail = np.max([n.tail for n in logs], axis=0) / _TAIL
     crossings = np.sum([n.crossings for n in logs], axis=0) / (rows * engine.sample_time)
     excess = np.max([n.excess for n in logs], axis=0)
-    rest = np.concatenate([np.vstack([n.rest, np.full((_APART, len(tail)), np.nan)]) for n in logs])
+    apart = np.full((_APART, len(tail)), np.nan)
+    rest = np.concatenate([np.vstack([n.rest, apart]) for n in logs])
+    averages = np.concatenate([np.vstack([n.averages, apart]) for n in logs])
     used = np.isfinite(rest).any(axis=0) & (tail > 0)
     alarms = false_alarms / 3600.0 / (_TESTS * max(1, int(used.sum())))
-    apart = 1.0 / (rows_apart(engine) * engine.sample_time)
+    often = 1.0 / (rows_apart(engine) * engine.sample_time)
     found = {}
     for k in np.flatnonzero(used).tolist():  # others were never valid in these logs
         own = noise(rest[:, k], centred=stands[k])
@@ -262,7 +280,12 @@ def _limits(
         sigma = max(own.foreseen(level), float(tail[k]))
         top, bottom = excess[:, k].tolist()
         level = max(level, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
-        limit = Limit(sigma, rate, level, height(apart, alarms), own.mean, own.memory)
+        mean = lasting(averages[:, k], 0.0, stands[k], level)
+        limit = Limit(sigma, rate, level, height(often, alarms), own.mean, own.memory)
+        if math.isfinite(mean.unit):
+            off = mean.mean - own.mean if stands[k] else 0.0
+            unit = mean.unit * sigma / own.foreseen(level)
+            limit = Limit(*limit[:6], unit, off, *mean.weights.tolist())
         found[engine.residuals[k]] = limit
     return _higher(found, engine.residuals, logs, spread)
 
@@ -278,8 +301,10 @@ def _higher(
         cusum.restart()
         waiting: deque[Row] = deque()
         for one in log.every:
-            value = np.where(one.valid, one.value - own[:, 4], 0.0)
-            row = one._replace(value=value, mean=own[:, 4])
+            row = one._replace(value=np.where(one.valid, one.value, 0.0), mean=own[:, 4])
+            assert row.average is not None
+            row = row._replace(average=row.average._replace(value=row.average.value.copy()))
+            row.lower(own[:, 4])
             cusum.add(history.innovation(row, sure), own)
             waiting.append(row)
             if len(waiting) > HEALTHY:

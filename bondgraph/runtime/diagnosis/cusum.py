@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.ir.residual_limit import OVERSHOOT, SHARE, ResidualLimit
+from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.log import Array, Mask
@@ -18,37 +19,54 @@ _SQUARE, _LOUD = 0.5 * (1.0 - 1.0 / _LOUDER), 0.5 * math.log(_LOUDER)
 _LOW = 1.0  # peaks below are not counted
 _BEFORE = 20.0  # peaks of normal rows that are reckoned with before the first one
 _ABOVE = 1.2  # times the highest peak of a healthy machine that a height stays above
+SUMS = 5  #: of each residual
+_FURTHER = np.array([[0.0], [0.0], [OVERSHOOT], [0.0], [0.0]])  # added to the heights of a mean
 
 
 class Cusum:
-    """Three sums of each residual: of what is above, of what is below, of how loud it is.
+    """Five sums of each residual: of what is above, of what is below, of how loud it is.
 
     Each adds up logarithms, by how much a fault makes a row more probable, and begins anew at zero
-    (Page, 1954): a mean that is one deviation off, to either side, or twice the deviation. Where
+    (Page, 1954): a mean that is one deviation off, to either side, or twice the deviation. The last
+    two are of averages of rows, to either side, each with so much of those before it as leaves no
+    memory (see `Lasting`): they see what stays and is small beside the noise from row to row. Where
     noise is independent and normal they climb higher than x so much more seldom than exp(-x); where
     it is not, as where a machine is louder in some of its motions, that is exp(-x/s), and the
     stretch s is seen in the peaks between two zeros (Pickands, 1975: an excess over a level is
     exponential). Heights are s times what they are for normal rows then, and above every peak.
 
-    `limits` have the columns of `Limit`, (residuals, 6).
+    `limits` have the columns of `Limit`, (residuals, 12).
     """
 
     def __init__(self, residuals: int, learns: bool = True) -> None:
         self._learns = learns
         self._count = np.zeros(residuals)  # of peaks
         self._excess = np.zeros(residuals)  # of all of them together
-        self._highest = np.zeros((3, residuals))
-        self.held = np.zeros(residuals)  # rows since all three sums were zero
+        self._highest = np.zeros((SUMS, residuals))
+        self._since = np.zeros((SUMS, residuals))  # rows since each sum was zero
         self.restart()
 
     def restart(self) -> None:
         """The sums begin anew; what is known of peaks is still known."""
         count = len(self._count)
-        self.sums, self._peaks = np.zeros((3, count)), np.zeros((3, count))
-        self.held[:] = 0.0
+        self.sums, self._peaks = np.zeros((SUMS, count)), np.zeros((SUMS, count))
+        self._since[:] = 0.0
+        self._before = np.full((LAGS, 2, count), math.nan)  # averages and bounds, the last first
+        #: Of the last row: what averages are above their bound, in deviations; NaN where unknown.
+        self.excess = np.full(count, math.nan)
+
+    @property
+    def held(self) -> Array:
+        """Rows since all sums of a residual were zero."""
+        return np.asarray(self._since.max(axis=0))
+
+    def onset(self, limits: Array) -> int:
+        """Rows since a sum was zero that is too high now: since then something is wrong."""
+        over = self.sums > self._tops(limits)
+        return int(self._since[over].max(initial=0.0))
 
     def heights(self, normal: Array) -> Array:
-        """The heights that tell of a fault, (3, residuals); `normal` are those for normal rows."""
+        """The heights that tell of a fault, (5, residuals); `normal` are those for normal rows."""
         stretch = np.maximum((self._excess + _BEFORE) / (self._count + _BEFORE), 1.0)
         return np.maximum(stretch * normal, _ABOVE * self._highest)
 
@@ -59,19 +77,36 @@ class Cusum:
         """
         known = row.valid & np.isfinite(limits[:, 0])
         sigma, memory = limits[:, 0], limits[:, 5]
-        top = self.heights(limits[:, 3] + np.array([[0.0], [0.0], [OVERSHOOT]]))
+        top = self._tops(limits)
         squares = squared(memory)
         with np.errstate(divide="ignore", invalid="ignore"):
             off = (np.stack([row.value, -row.value]) - row.bound) / (sigma * np.sqrt(memory)) - 0.5
             size = np.maximum(np.abs(row.value) - row.bound, 0.0) / sigma
             loud = (size**2 * _SQUARE - _LOUD) / squares
-            more = np.vstack([off, np.minimum(loud, SHARE * top[2])[None]])
+            loud = np.minimum(loud, SHARE * top[2])
+            more = np.vstack([off, loud[None], self._lasting(row, limits)])
             after = np.clip(self.sums + more, 0.0, 2.0 * top)
-        self.sums = np.where(known, after, 0.0)
+        self.sums = np.where(known & np.isfinite(more), after, 0.0)
         if self._learns:
             self._learn()
-        self.held = np.where(self.sums.max(axis=0) > 0.0, self.held + 1.0, 0.0)
+        self._since = np.where(self.sums > 0.0, self._since + 1.0, 0.0)
         return np.asarray((self.sums > top).any(axis=0))
+
+    def _tops(self, limits: Array) -> Array:
+        return self.heights(limits[:, 3] + _FURTHER)
+
+    def _lasting(self, row: Row, limits: Array) -> Array:
+        """What averages add, (2, residuals); NaN where it is not known."""
+        none = np.full((2, len(limits)), math.nan)
+        own = none
+        if row.average is not None:
+            known = row.average.valid & (limits[:, 6] > 0.0)
+            own = np.where(known, [row.average.value - limits[:, 7], row.bound], math.nan)
+        weights = limits[:, None, 8:].T
+        value, bound = own + np.where(weights > 0.0, weights * self._before, 0.0).sum(axis=0)
+        self._before = np.concatenate([own[None], self._before[:-1]])
+        self.excess = np.sign(value) * np.maximum(np.abs(value) - bound, 0.0) / limits[:, 6]
+        return np.asarray((np.stack([value, -value]) - bound) / limits[:, 6] - 0.5)
 
     def _learn(self) -> None:
         """A peak counts when its sum is at zero again: those of a fault come to an alarm."""
@@ -90,7 +125,7 @@ class Cusum:
         """The same in a state; raises KeyError, TypeError or ValueError for one of another kind."""
         other = Cusum(len(self._count), self._learns)
         other.sums = array(state["sums"], self.sums.shape)
-        peaks = array(state["peaks"], (5, len(self._count)))
+        peaks = array(state["peaks"], (2 + SUMS, len(self._count)))
         other._count, other._excess, other._highest = peaks[0], peaks[1], peaks[2:]
         return other
 

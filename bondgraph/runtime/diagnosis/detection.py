@@ -16,6 +16,7 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 _OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
 _PAUSE = 32  # rows: what comes back later has been away
 _QUIET = 2  # rows, at least: what moves through zero is quiet in one
+_LEAST = 0.5  # deviations of averages: a fault that is smaller is not seen
 _SOON = 4  # times the rows that had to be quiet: what comes back within them has not been away
 
 
@@ -24,7 +25,7 @@ class Detection:
 
     `fired` says which have, `most` by how much of its threshold each was out at most, of the last
     samples while none has fired; `alarms` counts them. The sample test fires after `least` samples
-    in a row. `limits` have the columns of `Limit`, (residuals, 6).
+    in a row. `limits` have the columns of `Limit`, (residuals, 12).
 
     A fault is over once each residual that has fired is twenty times as probable to be that of a
     healthy machine as one that goes on as it has been while it was out, normal with that mean and
@@ -50,8 +51,9 @@ class Detection:
         """The residuals begin anew; what has fired still has."""
         self._streak = np.zeros(len(self._names), dtype=int)
         self._cusum.restart()
-        self._sum = np.zeros((3, len(self._names)))  # of rows of this alarm: 1, excess, squares
-        self._held = np.zeros((3, len(self._names)))  # the same of rows since they are quiet
+        # of rows of this alarm, and of their averages: 1, excess, squares
+        self._sum = np.zeros((6, len(self._names)))
+        self._held = np.zeros((6, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
         self._quiet = 0  # rows that nothing was out in
 
@@ -90,6 +92,10 @@ class Detection:
             self._away = min(self._away + 1, _PAUSE + 1)
         return np.asarray(self._cusum.add(row, limits) & ~self.fired)
 
+    def onset(self, limits: Array) -> int:
+        """Rows since something is wrong that a sum of rows tells now, 0 if none does."""
+        return self._cusum.onset(limits)
+
     @property
     def held(self) -> Array:
         """Rows since the sums of each residual were zero: a fault may act since then."""
@@ -103,8 +109,7 @@ class Detection:
             back = gap <= min(_SOON * self._gone, _PAUSE)
             self._needed = min(2 * gap, _PAUSE) if back else _QUIET
         self.fired = self.fired | fresh
-        self._healthy[:] = 0.0
-        self._quiet = 0
+        self.reconsider()
         self.alarms += first
         return first
 
@@ -112,6 +117,11 @@ class Detection:
         """Whether something is further out than it usually is, though nothing has fired yet."""
         loud = np.abs(row.value) - row.bound > 0.5 * limits[:, 2] * limits[:, 0]
         return bool((self._streak > 0).any() or loud.any())
+
+    def reconsider(self) -> None:
+        """What quiet rows have told of the end of a fault was told without knowing the fault."""
+        self._healthy[:] = 0.0
+        self._quiet = 0
 
     def over(
         self, row: Row, limits: Array, shows: Callable[[], Mask | None] = lambda: None
@@ -128,14 +138,12 @@ class Detection:
         moved = shows() if (seen & ~loud).any() else None
         if moved is not None:
             seen &= moved | loud
-        _, mean, square = self._sum / np.maximum(self._sum[0], 1.0)
-        variance = np.maximum(square - mean**2, 1.0)
-        mean = np.where(np.abs(mean) < 1.0, np.copysign(1.0, mean), mean)
-        more = np.log(variance) + (excess - mean) ** 2 / variance - excess**2
-        more = np.where(seen & (self._sum[0] > 0), more / (2.0 * limits[:, 5]), 0.0)
+        more = np.where(seen & (self._sum[0] > 0), self._more(excess, limits[:, 5]), 0.0)
         self._healthy = np.maximum(self._healthy + more, 0.0)
         # what is quiet now is no part of how far out it was, until it is out again
-        self._held += np.where(seen, [np.ones_like(excess), excess, excess**2], 0.0)
+        one, lasting = np.ones_like(excess), self._cusum.excess
+        known = np.where(np.isfinite(lasting), [one, lasting, lasting**2], 0.0)
+        self._held += np.where(seen, [one, excess, excess**2, *known], 0.0)
         out = self._healthy <= 0.0
         self._sum += np.where(out, self._held, 0.0)
         self._held[:, out] = 0.0
@@ -143,6 +151,17 @@ class Detection:
         self._quiet = 0 if (more < 0.0).any() else self._quiet + quiet
         enough = bool((self._healthy[self.fired] > _OVER).all())
         return (enough and self._quiet >= self._needed) or self._quiet >= _PAUSE
+
+    def _more(self, excess: Array, memory: Array) -> Array:
+        """By how much a row makes it more probable that the fault of each residual is gone.
+
+        That tells either the row, or its average beside the rows before: what shows the fault best.
+        """
+        lasting = self._cusum.excess
+        rows, shows = _gone(self._sum[:3], excess, 1.0)
+        averages, better = _gone(self._sum[3:], lasting, _LEAST)
+        use = np.isfinite(lasting) & (self._sum[3] > 0) & (better > shows / memory)
+        return np.asarray(np.where(use, averages / 2.0, rows / (2.0 * memory)))
 
     def clear(self) -> None:
         """The fault is over."""
@@ -172,3 +191,15 @@ class Detection:
         other._needed, other._away, other._gone = (int(x) for x in state["pause"])
         return other
 
+
+def _gone(sums: Array, excess: Array, least: float) -> tuple[Array, Array]:
+    """Twice by how much a row makes it more probable that a fault is gone, and that in the mean.
+
+    It would go on with the mean and the variance that it has in the `sums`, of ones, values and
+    squares, its mean no less than the `least`.
+    """
+    _, mean, square = sums / np.maximum(sums[0], 1.0)
+    variance = np.maximum(square - mean**2, 1.0)
+    mean = np.where(np.abs(mean) < least, np.copysign(least, mean), mean)
+    more = np.log(variance) + (excess - mean) ** 2 / variance - excess**2
+    return more, np.log(variance) + (1.0 + mean**2) / variance - 1.0

@@ -19,7 +19,16 @@ from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
-from bondgraph.runtime.diagnosis.rows import Part, Row, together, usual, weight
+from bondgraph.runtime.diagnosis.rows import (
+    Average,
+    Part,
+    Row,
+    all_of,
+    averaged,
+    together,
+    usual,
+    weight,
+)
 from bondgraph.runtime.diagnosis.signal_checks import SignalChecks
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
@@ -55,7 +64,6 @@ class Diagnosis:
         self._doubt = Doubt(engine, model, walks=tuning is None)
         self._origins = Origins(engine, model.memories, self._every)
         self._past: deque[Row] = deque(maxlen=int(_MEMORY))
-        self._values = [k for k, h in enumerate(self._tolerated) if h.kind == "value"]
         self._learning: Learning | None = None
         if tuning is None:
             self._learning = Learning(engine, known, used, model)
@@ -82,6 +90,7 @@ class Diagnosis:
         self._past.clear()
         self._calm: deque[Row] = deque()
         self._piece: list[Array] = []
+        self._averages: list[tuple[int, Average]] = []
         self._before = copied(self._bank.engine)
         self._ends = False  # whether the present samples complete a row
         self._status.restart()
@@ -151,13 +160,14 @@ class Diagnosis:
     def _row(self, part: Part, out: list[Verdict]) -> Row | None:
         """Add samples to the row; the row, when it is full."""
         self._piece.append(part.samples.copy())
+        self._averages.append((len(part.time), averaged(part.value, part.valid, part.slopes)))
         if not self._ends:
             return None
         whole = np.concatenate(self._piece)
         self._judge.learn(whole)
         row = Row(float(part.time[-1]), whole, self._before, *[x[-1].copy() for x in part[2:]])
-        row = row._replace(mean=self._limits[:, 4].copy())
-        self._piece, self._before = [], copied(self._bank.engine)
+        row = row._replace(mean=self._limits[:, 4].copy(), average=all_of(self._averages))
+        self._piece, self._averages, self._before = [], [], copied(self._bank.engine)
         self._past.append(row)
         if self._origins.looking:
             self._settle()
@@ -215,18 +225,21 @@ class Diagnosis:
         if not self._detection.alarmed:
             self._remember(row)
         elif self._judge.step(row, self._past, self._limits[:, 0], self._tolerated):
+            known = self._judge.best
             if not self._unusual():
                 self._explain(row, out)
+            if known is None and self._judge.best is not None:
+                self._detection.reconsider()
             self._over(own, out)
 
     def _learn(self, row: Row, healthy: bool) -> Mask:
         """Which residuals are known with this row; where they stand holds for rows before too."""
         assert self._learning is not None
         before = self._limits[:, 4].copy()
-        fresh = self._learning.row(row, row.slopes[self._values], healthy, self._detection.held)
+        fresh = self._learning.row(row, healthy, self._detection.held)
         if (moved := self._limits[:, 4] - before).any():
             for one in self._past:
-                one.value[one.valid] -= moved[one.valid]
+                one.lower(moved)
             mean = self._limits[:, 4].copy()
             self._past = deque((r._replace(mean=mean) for r in self._past), self._past.maxlen)
         return fresh
@@ -282,6 +295,8 @@ class Diagnosis:
         start = len(past) - 1
         while start > 0 and self._odd(past[start]):
             start -= 1
+        if not piece:  # a sum of rows tells when it was zero
+            start = min(start, len(past) - 1 - self._detection.onset(self._limits))
         begin = max(0, start)  # its samples are still healthy ones, the fault begins behind them
         chosen = past[begin + 1 :]
         sigma = self._limits[:, 0]

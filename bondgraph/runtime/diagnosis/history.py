@@ -90,13 +90,19 @@ class History:
         That is what is not known of its parameters yet, what they may drift by, and what no
         parameter does. A residual that is not `sure` may be anywhere within its tolerances.
         """
-        expected, variance = self.expected(row.slopes)
-        sure = sure & np.isfinite(expected) & np.isfinite(variance)
-        unknown = _UNKNOWN * np.sqrt(np.where(sure, variance, 0.0))
+        own, count = row.average, len(row.value)
+        slopes = row.slopes if own is None else np.concatenate([row.slopes, own.slopes], axis=1)
+        expected, variance = self.expected(slopes)
+        sure = sure & np.isfinite(expected[:count]) & np.isfinite(variance[:count])
+        unknown = _UNKNOWN * np.sqrt(np.where(sure, variance[:count], 0.0))
         bound = COVERED * (row.bound - row.doubt) + row.doubt + unknown
+        if own is not None:
+            less = np.where(sure & own.valid, expected[count:], 0.0)
+            own = own._replace(value=own.value - less)
         return row._replace(
-            value=np.where(sure, row.value - expected, row.value),
+            value=np.where(sure, row.value - expected[:count], row.value),
             bound=np.where(sure, bound, row.bound),
+            average=own,
         )
 
 

@@ -71,6 +71,11 @@ class Judge:
         said = self.latched is not None and self.latched.said is not None
         return not said and self._after < _JUDGE + 2
 
+    @property
+    def best(self) -> str | None:
+        """The fault that explains all, if there is one."""
+        return None if self._best is None else self._best.fault
+
     def shows(self) -> Mask | None:
         """Which residuals the fault that explains all would move now, if there is one."""
         if self._best is None or not self._compared:

@@ -13,6 +13,7 @@ from bondgraph.runtime.diagnosis.driving import Driving
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.noise import noise, uncovered, within
+from bondgraph.runtime.diagnosis.row_averages import lasting
 from bondgraph.runtime.diagnosis.rows import Part, Row, variances
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
 from bondgraph.runtime.log import Array, Mask
@@ -32,8 +33,8 @@ _HOPELESS = 1.2  # times what noise may do: an approximation that is that far of
 _NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
 _MANY = 4 * FIRST  # rows after which switches that are turned all the time are known
 _OFF = 4.0  # deviations of a mean that is surely not zero
-_TESTS = 3  # of each residual: samples, sums of rows, how loud rows are
-_ALARMS = 0.3  # false ones wanted per hour: one is promised, and noise is not quite normal
+_TESTS = 4  # of each residual: samples, sums of rows and of averages, how loud rows are
+_ALARMS = 0.4  # false ones wanted per hour: one is promised, and noise is not quite normal
 
 _Settings: TypeAlias = frozenset[tuple[float, ...]]  # positions of the switches of a residual
 
@@ -105,6 +106,8 @@ class Learning:
         self.limits[self._stays, 3] = math.inf
         values = [h for h in known if h.kind == "value"]
         self._prior = tolerated(values, model)[1]
+        every, _ = tolerated(known, model)  # rows have the slopes of all of these
+        self._values = [at for at, h in enumerate(every) if h.kind == "value"]
         self.restart()
 
     def restart(self) -> None:
@@ -173,7 +176,7 @@ class Learning:
     def _forget(self, k: int) -> None:
         """What is known of the noise of a residual does not hold any longer."""
         for row in self._rows:
-            row.value[k] = math.nan
+            row.value[k] = row.average[k] = math.nan
         self._counts[k], self._due[k] = 0, FIRST
         self._sigma[k], self._learned[k] = {}, frozenset()
         self._highest[:, k] = -math.inf
@@ -186,16 +189,16 @@ class Learning:
         """Something is wrong, and may have been for some rows, as many as are `held` or more."""
         for ago, row in enumerate(reversed(self._rows)):
             row.value[np.maximum(held, LATE) > ago] = math.nan
+            row.average[np.maximum(held, LATE) > ago] = math.nan
 
-    def row(self, row: Row, slopes: Array, healthy: bool, held: Array) -> Mask:
+    def row(self, row: Row, healthy: bool, held: Array) -> Mask:
         """One row more, which counts if the machine is `healthy`.
 
-        `slopes` are those of the parameters with a tolerance, (parameters, residuals). Of each
-        residual so many of the last rows are `held` back: they may be those of a fault that is
-        small, and nothing that is known is changed by them. Returns the residuals whose noise is
+        Of each residual so many of the last rows are `held` back: they may be those of a fault that
+        is small, and nothing that is known is changed by them. Returns the residuals whose noise is
         known with it.
         """
-        valid = row.valid & healthy
+        valid, slopes = row.valid & healthy, row.slopes[self._values]
         added = self._added(row)
         sizes = np.abs(added).max(axis=0, initial=0.0)
         self._scale = np.fmax(self._scale, np.where(valid, sizes, 0.0))
@@ -204,10 +207,15 @@ class Learning:
         self._highest = np.maximum(self._highest, first)
         settings = [now | before for now, before in zip(self._now, self._before, strict=True)]
         raw = np.where(valid, row.value + self.limits[:, 4], math.nan)
-        self._rows.append(_Healthy(raw, row.bound, slopes, settings))
+        average, tilt = np.full_like(raw, math.nan), np.zeros_like(slopes)
+        if row.average is not None:
+            sound = valid & row.average.valid
+            average = np.where(sound, row.average.value + self.limits[:, 4], math.nan)
+            tilt = row.average.slopes[self._values]
+        self._rows.append(_Healthy(raw, row.bound, slopes, average, tilt, settings))
         self._counts += valid
         fresh = np.zeros_like(valid)
-        rest: tuple[Array, Array] | None = None
+        rest: tuple[Array, Array, Array] | None = None
         for k in np.flatnonzero(valid & self._used & ~self.hopeless).tolist():
             if self._wanted[k] and self._sigma[k] and settings[k] <= self._learned[k]:
                 self._wanted[k] = False  # back to what is known
@@ -230,16 +238,18 @@ class Learning:
         batch = self._bank.batch
         return np.where(batch is not None and batch.valid[-1], slopes, math.nan)
 
-    def _rest(self) -> tuple[Array, Array]:
+    def _rest(self) -> tuple[Array, Array, Array]:
         """What is left of the rows with parameters as they fit best, (rows, residuals).
 
-        With it the degrees of freedom that this has cost each residual.
+        The same of their averages, and the degrees of freedom that this has cost each residual.
         """
         value = np.array([one.value for one in self._rows])
         bound = np.array([one.bound for one in self._rows])
+        average = np.array([one.average for one in self._rows])
         count = len(self._prior)
         if not count:
-            return uncovered(value, bound), np.zeros(value.shape[1])
+            return uncovered(value, bound), uncovered(average, bound), np.zeros(value.shape[1])
+        tilts = np.array([one.tilt for one in self._rows]).transpose(0, 2, 1) * self._prior
         slopes = np.array([one.slopes for one in self._rows]).transpose(0, 2, 1) * self._prior
         weight = np.where(np.isfinite(value), self._weight(value, bound), 0.0)
         rest, owed = value, np.zeros(value.shape[1])
@@ -251,7 +261,7 @@ class Learning:
             owed = np.square(basis[:-count]).sum(axis=1).reshape(value.shape).sum(axis=0)
             rest = value - slopes @ found
             weight = weight * within(rest)
-        return uncovered(rest, bound), owed
+        return uncovered(rest, bound), uncovered(average - tilts @ found, bound), owed
 
     def _weight(self, value: Array, bound: Array) -> Array:
         """One over what residuals may be off by, noise from what neighbouring rows differ by."""
@@ -260,7 +270,9 @@ class Learning:
         variance = variances(np.nan_to_num(value), bound, sigma)
         return np.where(variance > 0, 1.0 / np.sqrt(np.maximum(variance, 1e-300)), 0.0)
 
-    def _estimated(self, k: int, setting: _Settings, rest: Array, owed: Array, held: int) -> bool:
+    def _estimated(
+        self, k: int, setting: _Settings, rest: Array, average: Array, owed: Array, held: int
+    ) -> bool:
         """Whether the noise of a residual, that was not known in this setting, is known now."""
         every = np.array([one.settings[k] == setting for one in self._rows])
         values = np.where(every, rest[:, k], math.nan)
@@ -291,16 +303,36 @@ class Learning:
         deviation = found.sigma * math.sqrt(found.memory / found.rows)
         self.off[k] = abs(found.mean) > max(_OFF * deviation, found.sigma)
         self.limits[k, 0] = max(self._sigma[k].values())
-        self.limits[k, 4:] = found.mean, found.memory
+        self.limits[k, 4:6] = found.mean, found.memory
+        if not (self._stays[k] or self._modes[k]):
+            own = np.where(np.isfinite(values), average[:, k], math.nan)
+            wider = self.limits[k, 0] / spread if spread > 0.0 else 1.0
+            self.limits[k, 6:] = self._averages(k, own, float(owed[k]), found.mean, wider)
         return unknown
+
+    def _averages(self, k: int, values: Array, owed: float, mean: float, wider: float) -> Array:
+        """What the averages of rows tell, as `Limit` has it behind the numbers of rows.
+
+        Noise is taken for so much `wider` than rows show, for what samples have shown.
+        """
+        found = lasting(values, owed, self._centred[k], float(self.limits[k, 2]))
+        least = _ACCURACY * float(self._scale[k]) * (1.0 + found.weights.sum())
+        unit = max(wider * found.unit, least)
+        stands = found.mean - mean if self._centred[k] else 0.0
+        return np.array([unit if math.isfinite(unit) else 0.0, stands, *found.weights])
 
 
 class _Healthy(NamedTuple):
-    """A row: residuals, NaN where they do not count, thresholds, slopes by what is tolerated."""
+    """A row: residuals, NaN where they do not count, thresholds, slopes by what is tolerated.
+
+    With it the averages of its samples, of residuals and of slopes.
+    """
 
     value: Array
     bound: Array
     slopes: Array
+    average: Array
+    tilt: Array
     settings: list[_Settings]
 
 

@@ -52,7 +52,9 @@ class Noise(NamedTuple):
         return self.sigma * wider * math.sqrt(1.0 + self.memory / max(self.rows, 1))
 
 
-def noise(values: Array, owed: float = 0.0, centred: bool = True) -> Noise:
+def noise(
+    values: Array, owed: float = 0.0, centred: bool = True, least: float = _FILTERED
+) -> Noise:
     """What rows (n,) of a healthy residual tell, NaN where it had no value.
 
     Their memory is that of an autoregression, of an order by the criterion of Schwarz (1978) with
@@ -60,6 +62,7 @@ def noise(values: Array, owed: float = 0.0, centred: bool = True) -> Noise:
     motion is too little: the deviation is corrected for the mean that was taken from them. Rows
     that are `within` no limits, as of a filter that settles, do not count. `owed` are degrees of
     freedom that were spent on the values before; where they are not `centred`, zero is the mean.
+    Their memory is `least` that of white noise behind the filter.
 
     >>> white = np.random.default_rng(1).normal(3.0, 1.0, 2000)
     >>> found = noise(white)
@@ -76,7 +79,7 @@ def noise(values: Array, owed: float = 0.0, centred: bool = True) -> Noise:
     if not variance > 0.0:
         return Noise(mean, 0.0, _FILTERED, _LEAST, count)
     coefficients = _autoregression(rest, known, variance)
-    memory, squared = _memories(coefficients)
+    memory, squared = _memories(coefficients, least)
     lost = owed + (memory if centred else 0.0)
     spent = min(lost / count, 0.75)  # what mean and parameters take of the variance
     freedom = max(count / squared - owed - centred, _LEAST)
@@ -136,10 +139,10 @@ def _autoregression(rest: Array, known: Mask, variance: float) -> Array:
     return best
 
 
-def _memories(coefficients: Array) -> tuple[float, float]:
+def _memories(coefficients: Array, least: float) -> tuple[float, float]:
     """The sums of the correlations of an autoregression, and of their squares, over all lags."""
     if not len(coefficients):
-        return _FILTERED, _SQUARED
+        return least, _SQUARED
     order = len(coefficients)
     lags = 64 * order
     impulse = np.zeros(lags)
@@ -151,4 +154,4 @@ def _memories(coefficients: Array) -> tuple[float, float]:
     covariance = np.fft.irfft(spectrum)[:lags]
     own = covariance / covariance[0]
     both = float(1.0 + 2.0 * own[1:].sum()), float(1.0 + 2.0 * np.square(own[1:]).sum())
-    return max(both[0], _FILTERED), max(both[1], _SQUARED)
+    return max(both[0], least), max(both[1], _SQUARED)

@@ -28,6 +28,14 @@ class Part(NamedTuple):
     slopes: Array  # (n, parameters, residuals)
 
 
+class Average(NamedTuple):
+    """Of all samples of a row: residuals, whether each sample has a value, and slopes."""
+
+    value: Array
+    valid: Mask
+    slopes: Array
+
+
 class Row(NamedTuple):
     """One row of the past, with the samples that led to it and the engine before these."""
 
@@ -40,6 +48,30 @@ class Row(NamedTuple):
     doubt: Array  # the part of it that no parameter explains
     slopes: Array  # of the tolerated parameters, wrong for ever
     mean: Array | float = 0.0  # of the residuals while all is well, that was taken off the value
+    average: Average | None = None  # of its samples, if it is known
+
+    def lower(self, by: Array) -> None:
+        """Take something more off the values: residuals stand elsewhere while all is well."""
+        self.value[self.valid] -= by[self.valid]
+        if self.average is not None:
+            self.average.value[self.average.valid] -= by[self.average.valid]
+
+
+def averaged(value: Array, valid: Mask, slopes: Array) -> Average:
+    """Of samples, (n, residuals) and (n, parameters, residuals)."""
+    sound: Mask = np.asarray(valid.all(axis=0))
+    return Average(np.where(sound, value.mean(axis=0), 0.0), sound, slopes.mean(axis=0))
+
+
+def all_of(pieces: Sequence[tuple[int, Average]]) -> Average:
+    """Of pieces of so many samples each, one after the other."""
+    if len(pieces) == 1:
+        return pieces[0][1]
+    counts = np.array([count for count, _ in pieces]) / sum(count for count, _ in pieces)
+    value, valid, slopes = (np.stack(x) for x in zip(*[own for _, own in pieces], strict=True))
+    sound: Mask = np.asarray(valid.all(axis=0))
+    whole = np.einsum("n,nr->r", counts, value)
+    return Average(np.where(sound, whole, 0.0), sound, np.einsum("n,npr->pr", counts, slopes))
 
 
 def together(parts: Sequence[Batch], residuals: int) -> Batch:

@@ -16,7 +16,8 @@ EDITION = 1
 _MOST = 1e100  # of any number: its square is one, too
 #: What each number of a limit is at least.
 _LEAST = {"sigma": 1 / _MOST, "crossings": 0.0, "kappa": 0.0, "height": 0.0, "mean": -_MOST,
-          "memory": 1 / _MOST}  # fmt: skip
+          "memory": 1 / _MOST, "unit": 0.0, "stands": -_MOST, "before1": 0.0, "before2": 0.0,
+          "before3": 0.0, "before4": 0.0}  # fmt: skip
 _SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filter may be, rad
 _ENOUGH = 75  # rows, of three time constants, that a log should have
 
@@ -28,6 +29,8 @@ class Limit(NamedTuple):
     It fires where max(0, |r - mean| - a) is above `kappa` sigma, or where a sum of rows is above
     `height` (see `Cusum`). Sums count in deviations of
     noise that adds up: the variance of a sum of n rows is n sigma^2 times their `memory`.
+    Averages of rows `stands` above the mean; each with so much of those before it as `before1` and
+    so on say adds up with the deviation `unit` (see `Lasting`), zero where that is not known.
     """
 
     sigma: float
@@ -36,6 +39,12 @@ class Limit(NamedTuple):
     height: float
     mean: float = 0.0
     memory: float = 1.0
+    unit: float = 0.0
+    stands: float = 0.0
+    before1: float = 0.0
+    before2: float = 0.0
+    before3: float = 0.0
+    before4: float = 0.0
 
 
 class Tuning(NamedTuple):

@@ -334,7 +334,8 @@ class _Monitor:
     def __init__(self, runnable: Runnable, module: ModuleType, setting: Setting) -> None:
         values = dict(zip(runnable.params, setting.values(runnable), strict=True))
         given = (module.Parameters(**values),) if values else ()
-        self._monitor: Any = module.Monitor(*given, bandwidth=setting.bandwidth)
+        of = module.Thresholds if runnable.program.bounds else module.Monitor
+        self._monitor: Any = of(*given, bandwidth=setting.bandwidth)
         self._samples: Any = module.Samples
         self._results = runnable.residuals
         self._number = {r.name: at for at, r in enumerate(runnable.program.residuals)}

@@ -1,17 +1,9 @@
 /* Takes a count; the difference to the one before is right also when the counter runs over. */
-static void count_on({{ stem }}_encoder *encoder, int32_t count)
+static void count_on({{ stem }}_encoder *encoder, int32_t count, bool first)
 {
-    const uint32_t step = (uint32_t)count - encoder->count;
+    const uint32_t step = first ? 0u : (uint32_t)count - encoder->count;
 
     encoder->increment = step <= INT32_MAX ? (int32_t)step : -(int32_t)(UINT32_MAX - step) - 1;
-    encoder->total += encoder->increment;
+    encoder->total = first ? 0 : encoder->total + encoder->increment;
     encoder->count = (uint32_t)count;
-}
-
-/* Takes the first count. */
-static void count_from({{ stem }}_encoder *encoder, int32_t count)
-{
-    encoder->count = (uint32_t)count;
-    encoder->increment = 0;
-    encoder->total = 0;
 }

@@ -4,11 +4,32 @@ typedef struct tape_op {
     bool fresh; /* the target starts at zero */
 } tape_op;
 
+/* Lines that are run so many times, each time on so many coefficients more. */
+typedef struct tape_run {
+    uint32_t first, count, times, grow;
+} tape_run;
+
+static void run_tape_op(
+    const tape_op *op, size_t length, const real *scales, real *rows, size_t width)
+{
+    const real *from = rows + op->source * width;
+    real *to = rows + op->target * width;
+    size_t k;
+
+    for (k = 0; op->fresh && k < width; ++k) {
+        to[k] = REAL(0.0);
+    }
+    for (k = 0; k < length; ++k) {
+        to[k + op->shift] += scales[op->scale] * from[k];
+    }
+}
+
 /* Runs a recipe on rows of `width` coefficients; row 0 starts as the polynomial 1. */
-static void run_tape(
-    const tape_op *ops, size_t count, const real *scales, real *rows, size_t height, size_t width)
+static void run_tape(const tape_op *ops, const tape_run *runs, size_t count, const real *scales,
+    real *rows, size_t height, size_t width)
 {
     size_t i;
+    size_t j;
     size_t k;
 
     for (k = 0; k < height * width; ++k) {
@@ -16,15 +37,12 @@ static void run_tape(
     }
     rows[0] = REAL(1.0);
     for (i = 0; i < count; ++i) {
-        const tape_op *op = &ops[i];
-        const real *from = rows + op->source * width;
-        real *to = rows + op->target * width;
+        for (j = 0; j < runs[i].times; ++j) {
+            for (k = 0; k < runs[i].count; ++k) {
+                const tape_op *op = &ops[runs[i].first + k];
 
-        for (k = 0; op->fresh && k < width; ++k) {
-            to[k] = REAL(0.0);
-        }
-        for (k = 0; k < op->length; ++k) {
-            to[k + op->shift] += scales[op->scale] * from[k];
+                run_tape_op(op, op->length + j * runs[i].grow, scales, rows, width);
+            }
         }
     }
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "khepera_residuals.h"
+#include "khepera.h"
 #include "step.h"
 
 static void signals(double t, hand_samples *s)
@@ -28,8 +28,7 @@ int main(int count, char **words)
     static double r[5];
     static int valid[5];
     static hand_robot robot;
-    static khepera_monitor monitor;
-    static khepera_parameters parameters;
+    static khepera_memory memory;
     static khepera_samples given;
     static khepera_residuals out;
     hand_samples s;
@@ -39,10 +38,7 @@ int main(int count, char **words)
     s.r = r;
     s.valid = valid;
     hand_configure(&robot, 0.001, 20.0);
-    khepera_nominal(&parameters);
-    if (khepera_configure(&monitor, &parameters, 0.001, 20.0, 1.0) != 0) {
-        return 1;
-    }
+    khepera_reset(&memory);
     for (n = 0; n < steps; ++n) {
         signals(0.001 * (double)(n % 64), &s);
         if (hand) {
@@ -52,7 +48,7 @@ int main(int count, char **words)
             given.Fx__1 = s.Fx[0], given.Fx__2 = s.Fx[1];
             given.m__1__me__we = s.We[0], given.m__2__me__we = s.We[1];
             given.m__1__wh__ws = s.Ws[0], given.m__2__wh__ws = s.Ws[1];
-            khepera_step(&monitor, &given, &out);
+            khepera_step(&khepera_nominal_coefficients, &memory, &given, &out);
         }
     }
     for (n = 0; n < 5; ++n) {

@@ -8,17 +8,17 @@ typedef struct hand_filter {
 
 typedef struct hand_drive {
     double e0, s0, x0, e1, s1, x1, e2, s2; /* r1: of We, Ws, Fx by order */
-    double n, p1, p2, px, pw, ge, gs;      /* r2: of Ws by order, of Fx, of w */
+    double n, p2, px, pw, ge, gs;          /* r2: of Ws by order, of Fx, of w; T/24 of the angle */
     double r1[3], r2[3], q, rate1, rate2;
     unsigned age1, age2;
 } hand_drive;
 
 typedef struct hand_robot {
     hand_filter f;
-    double half, slope; /* T/2 and T/24 */
     hand_drive drive[2];
     double r3;
     unsigned age3, settle3, settle1;
+    int settled; /* all five are valid */
 } hand_robot;
 
 typedef struct hand_samples {

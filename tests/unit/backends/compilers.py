@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from bondgraph.backends.emit import emit
+from bondgraph.backends.emit import EXTRAS, emit
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.members import derivatives, samples
 from bondgraph.backends.spelling import Spelling
@@ -41,10 +41,32 @@ def compiler(name: str) -> tuple[str, ...]:
     return command
 
 
+#: Where the headers are, and the files that are compiled beside a self-test with `exact`.
+INCLUDES = ("-I.", "-Iexact")
+
+
+def sources(stem: str) -> tuple[str, str]:
+    """The files of C of a program, `exact` included."""
+    return f"{stem}.c", f"exact/{stem}_exact.c"
+
+
 def generate(program: Program, folder: Path) -> str:
     """All files of a program in `folder`; the stem of their names."""
-    write(emit(program, ("c", "python")), folder)
+    write(emit(program, ("c", "python"), extras=EXTRAS), folder)
     return snake(program.name)
+
+
+def self_test(folder: Path, stem: str, *options: str, of: str = "") -> str:
+    """What the self-test in C says, compiled with gcc and the options; `of` is `_thresholds`."""
+    compiled = (f"{stem}.c",) if of else sources(stem)
+    files = (f"tests/selftest{of}.c", *compiled, "-lm", "-o", "selftest")
+    run(*compiler("gcc"), *INCLUDES, *options, *files, cwd=folder)
+    return run(folder / "selftest")
+
+
+def python_self_test(folder: Path, of: str = "") -> str:
+    """What the self-test in Python says."""
+    return run(sys.executable, f"tests/selftest{of}.py", cwd=folder)
 
 
 def run(*command: str | Path, cwd: Path | None = None) -> str:
@@ -56,10 +78,7 @@ def run(*command: str | Path, cwd: Path | None = None) -> str:
     return done.stdout
 
 
-def python_module(folder: Path, stem: str) -> ModuleType:
-    """The generated Python module."""
-    path = folder / f"{stem}_residuals.py"
-    name = f"{stem}_residuals_{abs(hash(str(folder)))}"
+def _module(path: Path, name: str) -> ModuleType:
     spec = importlib.util.spec_from_file_location(name, path)
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -68,15 +87,27 @@ def python_module(folder: Path, stem: str) -> ModuleType:
     return module
 
 
+def python_module(folder: Path, stem: str) -> ModuleType:
+    """The generated Python module."""
+    return _module(folder / f"{stem}.py", f"{stem}_{abs(hash(str(folder)))}")
+
+
+def exact_module(folder: Path, stem: str, module: ModuleType) -> ModuleType:
+    """The generated module of exact residuals, beside that of the residuals."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(sys.modules, stem, module)
+        path = folder / "exact" / f"{stem}_exact.py"
+        return _module(path, f"{stem}_exact_{abs(hash(str(folder)))}")
+
+
 class InC:
     """The generated C code as a shared library, with the interface of the Python module."""
 
     def __init__(self, program: Program, folder: Path, stem: str) -> None:
         self.program, self.stem = program, stem
         library = folder / "residuals.so"
-        source = folder / f"{stem}_residuals.c"
-        options = ("-O2", "-ffp-contract=off", "-shared", "-fPIC", "-o", library, source, "-lm")
-        run(*compiler("gcc"), *options)
+        options = ("-O2", "-ffp-contract=off", "-shared", "-fPIC", "-o", library, *INCLUDES)
+        run(*compiler("gcc"), *options, *sources(stem), "-lm", cwd=folder)
         self.library = ctypes.CDLL(str(library))
         spelling = Spelling(program, load("c"))
         kinds: dict[str, Any] = {
@@ -101,24 +132,32 @@ class InC:
         self.Residuals = struct(
             "Residuals", [("value", ctypes.c_double * count), ("valid", ctypes.c_bool * count)]
         )
-        self.monitor = ctypes.create_string_buffer(1 << 20)
-        self.configure_status = 0
+        self.coefficients = ctypes.create_string_buffer(1 << 20)
+        self.factors = ctypes.create_string_buffer(1 << 20)
+        self.memory = ctypes.create_string_buffer(1 << 20)
 
     def configure(self, *options: float, **params: float) -> int:
-        """The status of configure with sample_time, bandwidth and time_unit."""
+        """The status of configure with sample_time and bandwidth, and of exact with time_unit."""
         given = self.Parameters()
         getattr(self.library, f"{self.stem}_nominal")(ctypes.byref(given))
         for name, value in params.items():
             setattr(given, name, value)
-        function = getattr(self.library, f"{self.stem}_configure")
-        reals = [ctypes.c_double(x) for x in options]
-        return int(function(self.monitor, ctypes.byref(given), *reals))
+        *numbers, unit = [ctypes.c_double(x) for x in options]
+        configure = getattr(self.library, f"{self.stem}_configure")
+        status = int(configure(self.coefficients, ctypes.byref(given), *numbers))
+        self.reset()
+        exact = getattr(self.library, f"{self.stem}_exact_configure")
+        return status or int(exact(self.factors, ctypes.byref(given), unit))
+
+    def reset(self) -> None:
+        """Forget all samples."""
+        getattr(self.library, f"{self.stem}_reset")(self.memory)
 
     def step(self, **signals: Any) -> tuple[list[float], list[bool]]:
         """Values and validity after one sample."""
         given, found = self.Samples(**signals), self.Residuals()
         function = getattr(self.library, f"{self.stem}_step")
-        function(self.monitor, ctypes.byref(given), ctypes.byref(found))
+        function(self.coefficients, self.memory, ctypes.byref(given), ctypes.byref(found))
         return list(found.value), list(found.valid)
 
     def exact(self, **signals: Any) -> list[float]:
@@ -131,5 +170,5 @@ class InC:
             else:
                 setattr(given, name, value)
         found = (ctypes.c_double * len(self.program.residuals))()
-        getattr(self.library, f"{self.stem}_exact")(self.monitor, ctypes.byref(given), found)
+        getattr(self.library, f"{self.stem}_exact")(self.factors, ctypes.byref(given), found)
         return list(found)

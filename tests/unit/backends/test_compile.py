@@ -8,8 +8,21 @@ from pathlib import Path
 
 import pytest
 
+from bondgraph.pipeline import Compilation
+from bondgraph.text.source import Source
 from tests.unit.backends import programs
-from tests.unit.backends.compilers import COMPILERS, WARNINGS, compiler, generate, run
+from tests.unit.backends.compilers import (
+    COMPILERS,
+    INCLUDES,
+    WARNINGS,
+    compiler,
+    generate,
+    python_self_test,
+    run,
+    self_test,
+    sources,
+)
+from tests.unit.backends.test_unused import LINEAR, made
 
 _SAMPLE = pytest.mark.parametrize("make", programs.ALL, ids=lambda m: m.__name__)
 
@@ -20,20 +33,17 @@ def test_no_warning(make: programs.Maker, name: str, tmp_path: Path) -> None:
     command = compiler(name)
     stem = generate(make(), tmp_path)
     for real in ("", f"-D{stem.upper()}_FLOAT"):
-        for source in (f"{stem}_residuals.c", "selftest.c", "example.c"):
-            options = [*WARNINGS, "-O1", *filter(None, [real])]
+        for source in (*sources(stem), "tests/selftest.c", "example/example.c"):
+            options = [*WARNINGS, "-O1", *INCLUDES, *filter(None, [real])]
             run(*command, *options, "-c", source, "-o", "out.o", cwd=tmp_path)
 
 
 @_SAMPLE
 def test_selftest_in_c(make: programs.Maker, tmp_path: Path) -> None:
     stem = generate(make(), tmp_path)
-    gcc = compiler("gcc")
-    sources = ("selftest.c", f"{stem}_residuals.c", "-lm")
     sanitizers = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
     for options in (("-ffp-contract=off", *sanitizers), (f"-D{stem.upper()}_FLOAT",)):
-        run(*gcc, "-O1", *options, *sources, "-o", "selftest", cwd=tmp_path)
-        told = run(tmp_path / "selftest")
+        told = self_test(tmp_path, stem, "-O1", *options)
         assert told.endswith("PASS\n") and "FAIL" not in told
         assert "PASS exact r1" in told and "PASS step r1" in told
 
@@ -42,9 +52,9 @@ def test_selftest_in_c(make: programs.Maker, tmp_path: Path) -> None:
 def test_example_is_quiet_on_a_machine_at_rest(make: programs.Maker, tmp_path: Path) -> None:
     program = make()
     stem = generate(program, tmp_path)
-    sources = ("example.c", f"{stem}_residuals.c", "-lm")
-    run(*compiler("gcc"), *sources, "-o", "example", cwd=tmp_path)
-    assert "5000 samples" in run(tmp_path / "example")
+    files = ("example/example.c", f"{stem}.c", "-lm")
+    run(*compiler("gcc"), "-I.", *files, "-o", "watch", cwd=tmp_path)
+    assert "5000 samples" in run(tmp_path / "watch")
 
 
 @_SAMPLE
@@ -54,7 +64,7 @@ def test_only_constants_and_its_own_functions(make: programs.Maker, tmp_path: Pa
         pytest.skip("nm is not installed")
     program = make()
     stem = generate(program, tmp_path)
-    run(*compiler("gcc"), "-O2", "-c", f"{stem}_residuals.c", "-o", "out.o", cwd=tmp_path)
+    run(*compiler("gcc"), "-O2", "-c", f"{stem}.c", "-o", "out.o", cwd=tmp_path)
     symbols = [line.split()[-2:] for line in run("nm", tmp_path / "out.o").splitlines()]
     kinds = {kind for kind, _ in symbols}
     assert kinds <= {"T", "t", "r", "R", "U"}, symbols
@@ -72,7 +82,7 @@ def test_float_build_has_no_double(make: programs.Maker, tmp_path: Path) -> None
     """After the preprocessor every literal has its f, and no name of a double is left."""
     stem = generate(make(), tmp_path)
     text = run(
-        *compiler("gcc"), "-E", "-P", f"-D{stem.upper()}_FLOAT", f"{stem}_residuals.c", cwd=tmp_path
+        *compiler("gcc"), "-E", "-P", f"-D{stem.upper()}_FLOAT", f"{stem}.c", cwd=tmp_path
     )
     own = text[text.index(f"{stem}_real;") :]
     own = re.sub(r"extern [^;]*;", "", own)
@@ -91,3 +101,46 @@ def test_cmake_builds_and_tests(tmp_path: Path) -> None:
     run("cmake", "--build", tmp_path / "build")
     told = run("ctest", "--test-dir", tmp_path / "build")
     assert "100% tests passed" in told and "out of 2" in told
+
+
+def _frames(folder: Path, stem: str) -> dict[str, int]:
+    """The bytes that each function takes of the stack."""
+    found = {}
+    for source in sources(stem):
+        run(*compiler("gcc"), *INCLUDES, "-O1", "-fstack-usage", "-c", source, cwd=folder)
+    for file in sorted(folder.glob("*.su")):
+        for line in file.read_text().splitlines():
+            place, size, _ = line.split("\t")
+            found[place.rpartition(":")[2]] = int(size)
+    return found
+
+
+def test_configure_takes_no_stack(tmp_path: Path) -> None:
+    """Cells that each have parameters of their own: 120 of them."""
+    stem = generate(made(LINEAR, 120, tmp_path), tmp_path)
+    frames = _frames(tmp_path, stem)
+    assert max(frames.values()) <= 1024, frames
+    assert {f"{stem}_configure", f"{stem}_exact_configure"} <= frames.keys()
+    assert self_test(tmp_path, stem, "-O1").endswith("PASS\n")
+
+
+_CABLE = """bg 1
+import Cable from "MODELS/khepera.bg"
+model Long { Se:Uin -> Cable:line(n = COUNT) -> 0:out; out { -> C:Cs = line.C; -> De:Us } }
+"""
+
+
+def test_equal_cells_are_a_loop(tmp_path: Path, root: Path) -> None:
+    """What grows with the cells is the number of its turns."""
+    sizes = []
+    for cells in (30, 150):
+        text = _CABLE.replace("MODELS", str(root / "models")).replace("COUNT", str(cells))
+        program = Compilation(Source(str(tmp_path / "long.bg"), text)).program
+        folder = tmp_path / str(cells)
+        folder.mkdir()
+        stem = generate(program, folder)
+        told = self_test(folder, stem, "-O1", "-ffp-contract=off")
+        assert told.endswith("PASS\n") and "PASS exact r1" in told
+        assert python_self_test(folder).endswith("PASS\n")
+        sizes.append([(folder / name).stat().st_size for name in sources(stem)])
+    assert all(large < 1.1 * small for small, large in zip(*sizes, strict=True)), sizes

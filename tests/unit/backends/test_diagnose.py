@@ -156,7 +156,7 @@ def test_bounds_are_beside_the_level(motor: ModuleType) -> None:
 _DRIVER = """
 #include <stdio.h>
 #include <string.h>
-#include "motor_residuals.h"
+#include "motor.h"
 
 int main(int count, char **words)
 {
@@ -245,7 +245,7 @@ def test_c_decides_as_python_does_digit_for_digit(
 ) -> None:
     (tmp_path / "driver.c").write_text(_DRIVER)
     program = str(tmp_path / "driver")
-    sources = (str(tmp_path / "driver.c"), str(folder / "motor_residuals.c"))
+    sources = (str(tmp_path / "driver.c"), str(folder / "motor.c"))
     run(*compiler("gcc"), *WARNINGS, "-Wno-conversion", "-Wno-float-conversion", "-I", str(folder),
         "-O2", "-ffp-contract=off", *sources, "-o", program, cwd=tmp_path)  # fmt: skip
     limits = [
@@ -301,7 +301,7 @@ def _tuning() -> Tuning:
 @pytest.fixture(scope="module")
 def tuned(tmp_path_factory: pytest.TempPathFactory) -> Path:
     found = tmp_path_factory.mktemp("tuned")
-    write(_compiled().tuned(_tuning()).artifacts, found)
+    _compiled().tuned(_tuning()).write(found, extras=["example"])
     return found
 
 
@@ -309,8 +309,9 @@ def test_a_healthy_log_gives_no_alarm_and_a_stuck_sensor_its_class(tuned: Path) 
     stuck = Fault("current", "stuck", math.nan, at=20.0)
     for name, faults in (("healthy", ()), ("stuck", (stuck,))):
         write_log(_compiled().simulate(_scenario(9, *faults)).log, tuned / f"{name}.csv")
-    run(*compiler("gcc"), "-O2", "example.c", "motor_residuals.c", "-o", "example", cwd=tuned)
-    for command in (("./example",), (sys.executable, "example.py")):
+    files = ("example/example.c", "motor.c", "-lm")
+    run(*compiler("gcc"), "-O2", "-I.", *files, "-o", "watch", cwd=tuned)
+    for command in (("./watch",), (sys.executable, "example/example.py")):
         assert run(*command, "healthy.csv", cwd=tuned).endswith(", 0 alarms\n")
         *_, last, count = run(*command, "stuck.csv", cwd=tuned).splitlines()
         assert last.endswith("r1, r2 in alarm; one of k, current, speed")

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from bondgraph.backends.emit import emit
+from bondgraph.backends.emit import EXTRAS, emit
 from bondgraph.backends.target import load, targets
 from bondgraph.backends.templates import codegen
 from bondgraph.ir.program import Field, ResidualInfo
@@ -18,23 +18,30 @@ from tests.unit.backends import programs
 
 
 def _text(path: str, make: programs.Maker = programs.motor) -> str:
-    return {a.path: a.text for a in emit(make(), ("c", "python"))}[path]
+    return {a.path: a.text for a in emit(make(), ("c", "python"), extras=EXTRAS)}[path]
 
 
-def test_the_files_of_both_languages() -> None:
-    assert [a.path for a in emit(programs.motor(), ("c", "python"))] == [
-        "motor_residuals.h",
-        "motor_residuals.c",
-        "example.c",
-        "selftest.c",
-        "golden.h",
-        "CMakeLists.txt",
-        "motor_residuals.py",
-        "example.py",
-        "selftest.py",
-        "README.md",
+def test_few_files_and_more_where_asked_for() -> None:
+    few = ["motor.h", "motor.c", "CMakeLists.txt", "motor.py", "README.md"]
+    assert [a.path for a in emit(programs.motor(), ("c", "python"))] == few
+    every = [a.path for a in emit(programs.motor(), ("c", "python"), extras=EXTRAS)]
+    assert [path for path in every if "/" not in path] == few
+    assert sorted(path for path in every if "/" in path) == [
+        "exact/motor_exact.c",
+        "exact/motor_exact.h",
+        "exact/motor_exact.py",
+        "example/example.c",
+        "example/example.py",
+        "tests/golden.h",
+        "tests/selftest.c",
+        "tests/selftest.py",
     ]
     assert [a.path for a in emit(programs.motor(), ("python",))][-1] == "README.md"
+
+
+def test_an_unknown_extra_is_refused_by_name() -> None:
+    with pytest.raises(ValueError, match=r"'poem'; there are tests, exact, example"):
+        emit(programs.motor(), ("c",), extras=("poem",))
 
 
 def test_an_unknown_target_is_refused_by_name() -> None:
@@ -63,7 +70,7 @@ def test_same_bytes_under_any_hash_seed(make: programs.Maker) -> None:
 
 @pytest.mark.parametrize("make", programs.ALL, ids=lambda m: m.__name__)
 def test_text_is_tidy(make: programs.Maker) -> None:
-    for path, text in emit(make(), ("c", "python")):
+    for path, text in emit(make(), ("c", "python"), extras=EXTRAS):
         assert text.endswith("\n") and not text.endswith("\n\n"), path
         for line in text.splitlines():
             assert line == line.rstrip(), (path, line)
@@ -73,37 +80,37 @@ def test_text_is_tidy(make: programs.Maker) -> None:
 
 
 def test_every_statement_says_where_it_comes_from() -> None:
-    text = _text("motor_residuals.c")
+    text = _text("exact/motor_exact.c")
     assert "/* motor.bg:3: U - R*i - L*i' */\n    r[MOTOR_R1] = " in text
-    text = _text("motor_residuals.py")
+    text = _text("exact/motor_exact.py")
     assert "# motor.bg:3: U - R*i - L*i'\n        r.r1 = d.U - c.R * d.i[0] - c.L * d.i[1]" in text
 
 
 def test_every_field_says_unit_and_meaning() -> None:
-    text = _text("motor_residuals.h")
+    text = _text("motor.h")
     assert "motor_real R;  /* Ohm: resistance, el.R (motor.bg:3) */" in text
     assert '#define MOTOR_DIGEST "0123456789abcdef"' in text
-    assert "#define MOTOR_ABI (2u * 256u + (uint32_t)sizeof(motor_real))" in text
+    assert "#define MOTOR_ABI (3u * 256u + (uint32_t)sizeof(motor_real))" in text
 
 
 @pytest.mark.parametrize(
     ("parameter", "head"),
     [
-        ("2", "compute_coefficients(m_monitor *monitor, real sample_time, real bandwidth)"),
-        ("R", "compute_coefficients(m_monitor *monitor, const m_parameters *p, real sample_time,"),
+        ("2", "compute_coefficients(m_coefficients *c, real sample_time, real bandwidth)"),
+        ("R", "compute_coefficients(m_coefficients *c, const m_parameters *p, real sample_time,"),
     ],
 )
 def test_coefficients_are_given_the_parameters_that_they_read(parameter: str, head: str) -> None:
     text = f"bg 1\nmodel M {{ param R = 2; 1:s {{ <- Se:u; -> R:r = {parameter}; -> Df:y }} }}\n"
     artifacts = Compilation(Source("m.bg", text)).artifacts
-    code = next(a.text for a in artifacts if a.path.endswith("residuals.c"))
+    code = next(a.text for a in artifacts if a.path == "m.c")
     assert f"static void {head}\n" in code
 
 
 def test_a_comment_cannot_break_out() -> None:
     evil = Field("R", "R", "", "*/ int x; /* \\ ??/ \n # type: ignore \u202e", 1.0)
     program = programs.motor()._replace(params=(evil, programs.motor().params[1]))
-    for path, text in emit(program, ("c", "python")):
+    for path, text in emit(program, ("c", "python"), extras=EXTRAS):
         if path == "README.md":
             continue
         assert "\u202e" not in text and "\\ ?" not in text
@@ -117,23 +124,23 @@ def test_long_texts_are_cut() -> None:
     info = programs.motor().residuals[0]._replace(text="r1 = " + "x + " * 5000 + "x")
     residuals: tuple[ResidualInfo, ...] = (info, programs.motor().residuals[1])
     program = programs.motor()._replace(residuals=residuals)
-    header = {a.path: a.text for a in emit(program, ("c",))}["motor_residuals.h"]
+    header = {a.path: a.text for a in emit(program, ("c",))}["motor.h"]
     assert "..." in header and len(header) < 10_000
 
 
 def test_readme_has_both_programs_and_the_matrix() -> None:
     text = _text("README.md")
-    assert _text("example.c") in text and _text("example.py") in text
+    assert _text("example/example.c") in text and _text("example/example.py") in text
     assert "| x |  | `U`, `R`, `L`, `i` |" in text
-    assert "cmake -B build" in text and "0.25 s after the first sample" in text
+    assert "example/example.c motor.c -o watch" in text and "0.25 s after the first sample" in text
 
 
 def test_numbers_that_float_cannot_hold_are_told_at_compile_time() -> None:
     tiny = Field("L", "L", "H", "", 1e-60)
     program = programs.motor()._replace(params=(programs.motor().params[0], tiny))
-    text = {a.path: a.text for a in emit(program, ("c",))}["motor_residuals.c"]
+    text = {a.path: a.text for a in emit(program, ("c",))}["motor.c"]
     assert '#error "the model has numbers that float cannot hold: 1e-60"' in text
-    assert '#error "the model has' not in _text("motor_residuals.c")
+    assert '#error "the model has' not in _text("motor.c")
 
 
 def test_templates_are_files_with_holes() -> None:
@@ -146,4 +153,5 @@ def test_targets_describe_themselves() -> None:
     for name in targets():
         target = load(name)
         assert target.words <= target.reserved
-        assert all((codegen() / template).is_file() for template, _ in target.files)
+        files = [*target.files, *(file for own in target.extras.values() for file in own)]
+        assert all((codegen() / template).is_file() for template, _ in files)

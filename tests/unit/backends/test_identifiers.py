@@ -8,7 +8,7 @@ import re
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bondgraph.backends.identifiers import identifier, snake, spellings
+from bondgraph.backends.identifiers import file_name, identifier, snake, spellings
 
 _NAME = st.sampled_from(["a", "b_", "int", "for", "x_1", "é", "A", "a1", "for_"])
 _INDEX = st.sampled_from(["", "[1]", "[2]", "[12]"])
@@ -34,4 +34,4 @@ def test_different_names_stay_different_and_are_identifiers(paths: list[str]) ->
 def test_a_stem_is_always_an_identifier(name: str) -> None:
     stem = snake(name)
     assert stem.isidentifier() and stem == stem.lower()
-    assert not keyword.iskeyword(f"{stem}_residuals")
+    assert not keyword.iskeyword(file_name(stem))

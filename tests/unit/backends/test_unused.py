@@ -9,7 +9,15 @@ import pytest
 
 import bondgraph
 from bondgraph.ir.program import Program, Ref
-from tests.unit.backends.compilers import COMPILERS, WARNINGS, compiler, generate, run
+from tests.unit.backends.compilers import (
+    INCLUDES,
+    WARNINGS,
+    compiler,
+    generate,
+    run,
+    self_test,
+    sources,
+)
 
 CELLS = """bg 1
 model Cell { port a : in any; port b : out any; param R = 1.1; param L = 0.3
@@ -46,10 +54,11 @@ def test_no_unused_local(law: str, count: int, tmp_path: Path) -> None:
         if name == "gcc" or count < 15:
             for real in ((), (f"-D{stem.upper()}_FLOAT",)):
                 options = (*compiler(name), *WARNINGS, *real, "-O0", "-c", "-o", "out.o")
-                run(*options, f"{stem}_residuals.c", cwd=tmp_path)
-                run(*options, "selftest.c", cwd=tmp_path)
-    tree = ast.parse((tmp_path / f"{stem}_residuals.py").read_text())
-    for function in (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)):
+                for source in (*sources(stem), "tests/selftest.c"):
+                    run(*options, *INCLUDES, source, cwd=tmp_path)
+    files = [tmp_path / f"{stem}.py", tmp_path / "exact" / f"{stem}_exact.py"]
+    trees = [ast.parse(file.read_text()) for file in files]
+    for function in (n for t in trees for n in ast.walk(t) if isinstance(n, ast.FunctionDef)):
         names = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
         stored = {n.id for n in names if isinstance(n.ctx, ast.Store)}
         assert stored <= {n.id for n in names if isinstance(n.ctx, ast.Load)} | {"_"}, function.name
@@ -75,17 +84,13 @@ def test_a_residual_too_long_for_exact_says_so(tmp_path: Path) -> None:
     assert info.unavailable == "its order 40 is above 12" and info.order == 40
     assert program.exact == () and program.params == () and program.coefs == ()
     stem = generate(program, tmp_path)
-    for file in ("README.md", f"{stem}_residuals.h", f"{stem}_residuals.py"):
+    for file in ("README.md", f"{stem}.h", f"{stem}.py"):
         assert info.unwritten in " ".join((tmp_path / file).read_text().split())
-    sources = ("selftest.c", f"{stem}_residuals.c", "-lm", "-o", "selftest")
-    run(*COMPILERS["gcc"], *sources, cwd=tmp_path)
-    assert "PASS exact r1" in run(tmp_path / "selftest")
+    assert "PASS exact r1" in self_test(tmp_path, stem)
 
 
 def test_a_long_chain_of_laws_is_written_and_right(tmp_path: Path) -> None:
     program = made(ORIFICE, 16, tmp_path)
     assert program.residuals[0].unwritten == "" and program.residuals[0].order == 16
     stem = generate(program, tmp_path)
-    sources = ("selftest.c", f"{stem}_residuals.c", "-lm", "-o", "selftest")
-    run(*compiler("gcc"), *sources, cwd=tmp_path)
-    assert "PASS exact r1" in run(tmp_path / "selftest")
+    assert "PASS exact r1" in self_test(tmp_path, stem)

@@ -60,8 +60,8 @@ def test_compile_writes_below_the_folder_it_is_told(bondgraph: Command, tmp_path
     done = bondgraph("compile", MOTOR, "-o", tmp_path / "out")
     assert done.status == 0 and "2 residuals detect 9 of 9 faults, in 3 groups" in done.out
     written = {p.name for p in (tmp_path / "out").rglob("*") if p.is_file()}
-    assert {"dc_motor_residuals.c", "dc_motor_residuals.h", "README.md"} & written
-    assert len([name for name in written if name.endswith((".c", ".py", ".h"))]) >= 4
+    assert {"motor.c", "motor.h", "README.md"} & written
+    assert len([name for name in written if name.endswith((".c", ".py", ".h"))]) == 3
 
 
 def test_compile_writes_to_generated_by_default(
@@ -285,5 +285,5 @@ def test_code_takes_limits_of_its_own_tuning_only(bondgraph: Command, tmp_path: 
     bandwidth = json.loads(found.read_text())["bandwidth"]
     assert done.status == 0
     assert f"#define MOTOR_BANDWIDTH MOTOR_CONSTANT({bandwidth})" in (
-        out / "motor_residuals.h"
+        out / "motor.h"
     ).read_text()

@@ -135,7 +135,7 @@ def test_numbers_from_file_and_words_stand_in_for_those_of_the_model(
     assert found["parameters"] == {"R": 5.0, "L": 2e-3}  # the scenario is more particular
     done = bondgraph("compile", "c.bg", "--set", "R=4", "-o", "out", "--target", "python")
     assert done.status == 0
-    code = "".join(p.read_text() for p in (folder / "out").rglob("*_residuals.py"))
+    code = "".join(p.read_text() for p in (folder / "out").rglob("*.py"))
     assert re.search(r"R: float = 4\.0", code)
 
 

@@ -92,6 +92,17 @@ def test_the_page_never_scrolls_sideways(tab: Tab, robot: Path, width: int) -> N
     assert wide == width
 
 
+@pytest.mark.parametrize("width", [1200, 390])
+def test_the_contents_stay_in_view_and_cover_no_heading(tab: Tab, robot: Path, width: int) -> None:
+    tab.open(robot, width)
+    tab.run("document.getElementById('signatures').scrollIntoView()")
+    top = "document.querySelector('{}').getBoundingClientRect().{}"
+    assert tab.run(top.format("nav", "top")) == 0
+    assert tab.run(top.format("#signatures h2", "top")) > tab.run(top.format("nav", "bottom"))
+    tab.open(robot, PAPER, media="print")
+    assert tab.run("getComputedStyle(document.querySelector('nav')).position") == "static"
+
+
 def test_on_paper_nothing_is_cut_off_and_paths_are_open(
     tab: Tab, robot: Path, tmp_path: Path
 ) -> None:

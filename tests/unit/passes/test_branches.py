@@ -22,6 +22,7 @@ from tests.unit.backends.compilers import (
     WARNINGS,
     InC,
     compiler,
+    exact_module,
     generate,
     python_module,
     run,
@@ -49,11 +50,13 @@ def in_all_engines(
     module, in_c = python_module(folder, stem), InC(program, folder, stem)
     assert in_c.configure(1.0 / program.rate, program.bandwidth, 1.0, **params) == 0
     monitor = module.Monitor(module.Parameters(**params))
+    apart = exact_module(folder, stem, module)
+    exactly = apart.Exact(module.Parameters(**params))
     numbers, name = Sampled(program, params), program.residuals[0].name
     found = []
     if not program.residuals[0].unwritten:
         found += in_c.exact(**signals)
-        found.append(getattr(monitor.exact(module.Derivatives(**signals)), name))
+        found.append(getattr(exactly.residuals(apart.Derivatives(**signals)), name))
         found.append(numbers.exact({n: {0: x} for n, x in signals.items()})[name])
     states = None
     lanes = Lanes(program, dict(params))
@@ -149,7 +152,7 @@ def test_branches_compile_without_a_warning(law: str, name: str, tmp_path: Path)
     stem = generate(compiled(law).program, tmp_path)
     for real in ("-O2", f"-D{stem.upper()}_FLOAT"):
         given = (*WARNINGS, real, "-c", "-o", "x.o")
-        run(*compiler(name), *given, f"{stem}_residuals.c", cwd=tmp_path)
+        run(*compiler(name), *given, f"{stem}.c", cwd=tmp_path)
 
 
 def test_what_both_sides_need_is_computed_once_and_before() -> None:

@@ -257,7 +257,7 @@ def test_the_command(tmp_path: object, capsys: pytest.CaptureFixture[str]) -> No
     result = json.loads(capsys.readouterr().out)
     assert [a.get("free_of") for a in result["arrs"]] == [None, None, "k"]
     assert result["n_arr"] == 3
-    with open(f"{tmp_path}/out/m_residuals.h") as file:
+    with open(f"{tmp_path}/out/m.h") as file:
         assert "r3" in file.read()
     assert main(["compile", path, "--decouple", "k", *out]) == 0
     assert "free of k" in capsys.readouterr().out

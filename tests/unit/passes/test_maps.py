@@ -25,6 +25,7 @@ from tests.unit.backends.compilers import (
     WARNINGS,
     InC,
     compiler,
+    exact_module,
     generate,
     python_module,
     run,
@@ -106,7 +107,8 @@ def _agree(c: Compilation, folder: Path, expected: Callable[[float, float], floa
     in_c = InC(program, folder, stem)
     assert in_c.configure(1e-3, program.bandwidth, 1.0) == 0
     module = python_module(folder, stem)
-    python = module.Monitor(module.Parameters())
+    apart = exact_module(folder, stem, module)
+    python = apart.Exact(module.Parameters())
     wide = Lanes(program, {})
     y, w = np.array(_POINTS).T
     rates = {name: {k.name: k.highest for k in program.knowns}[name] > 0 for name in ("y", "w")}
@@ -123,7 +125,7 @@ def _agree(c: Compilation, folder: Path, expected: Callable[[float, float], floa
             "w": [at[1], 0.05] if rates["w"] else at[1],
         }
         one = in_c.exact(**{n: tuple(x) if isinstance(x, list) else x for n, x in members.items()})
-        other = python.exact(module.Derivatives(**members)).r1
+        other = python.residuals(apart.Derivatives(**members)).r1
         assert np.array_equal(one[0], other, equal_nan=True), at
         for found in (Sampled(program).exact(known)["r1"], other, lane):
             assert found == pytest.approx(expected(*at), rel=1e-7, abs=1e-7, nan_ok=True), at
@@ -149,9 +151,9 @@ def test_every_compile_with_a_map_checks_itself(tmp_path: Path, law: str) -> Non
 def test_maps_compile_without_a_warning(tmp_path: Path, name: str) -> None:
     for c in (_valve(tmp_path, "first input"), _outlet(tmp_path)):
         stem = generate(c.program, tmp_path)
-        text = (tmp_path / f"{stem}_residuals.c").read_text()
+        text = (tmp_path / f"{stem}.c").read_text()
         assert "along(" in text
-        source = tmp_path / f"{stem}_residuals.c"
+        source = tmp_path / f"{stem}.c"
         run(*compiler(name), *WARNINGS, "-c", source, "-o", tmp_path / "o")
 
 

@@ -20,6 +20,7 @@ from tests.unit.backends.compilers import (
     WARNINGS,
     InC,
     compiler,
+    exact_module,
     generate,
     python_module,
     run,
@@ -86,7 +87,8 @@ def test_c_python_and_our_own_runs_have_a_value_at_the_same_readings(tmp_path: P
     c = InC(program, tmp_path, stem)
     assert c.configure(1 / _RATE, program.bandwidth, 1.0) == 0
     module = python_module(tmp_path, stem)
-    python = module.Monitor(module.Parameters())
+    apart = exact_module(tmp_path, stem, module)
+    python = apart.Exact(module.Parameters())
     wide = Lanes(program, {})
     given = {("i", 0): 1.0, ("y", 0): np.array(_FLOWS), ("y", 1): 0.1}
     wide.values |= {Ref("known", *name): np.asarray(x)[()] for name, x in given.items()}
@@ -95,7 +97,7 @@ def test_c_python_and_our_own_runs_have_a_value_at_the_same_readings(tmp_path: P
     for y, lane in zip(_FLOWS, wide.values[Ref("residual", "r1")], strict=True):
         own = Sampled(program).exact({"i": {0: 1.0}, "y": {0: y, 1: 0.1}})["r1"]
         one = c.exact(i=1.0, y=(y, 0.1))[0]
-        other = python.exact(module.Derivatives(i=1.0, y=[y, 0.1])).r1
+        other = python.residuals(apart.Derivatives(i=1.0, y=[y, 0.1])).r1
         for found in (own, one, other, lane):
             assert found == pytest.approx(_expected(y), abs=1e-9, nan_ok=True), y
 
@@ -103,9 +105,9 @@ def test_c_python_and_our_own_runs_have_a_value_at_the_same_readings(tmp_path: P
 @pytest.mark.parametrize("name", COMPILERS)
 def test_the_gap_compiles_without_a_warning(tmp_path: Path, name: str) -> None:
     stem = generate(_valve(tmp_path).program, tmp_path)
-    text = (tmp_path / f"{stem}_residuals.c").read_text()
+    text = (tmp_path / f"{stem}.c").read_text()
     assert "NAN" in text and "csv_inverse" in text
-    run(*compiler(name), *WARNINGS, "-c", tmp_path / f"{stem}_residuals.c", "-o", tmp_path / "o")
+    run(*compiler(name), *WARNINGS, "-c", tmp_path / f"{stem}.c", "-o", tmp_path / "o")
 
 
 def test_the_text_for_programs_has_no_value_from_the_ends_on(tmp_path: Path) -> None:

@@ -64,7 +64,7 @@ def _generated(path: Path) -> ModuleType:
 
 def test_noise_is_what_the_generated_code_shows(motor: Compilation) -> None:
     """60 000 samples of noise; the filter leaves some 500 independent ones of each residual."""
-    module = _generated(_ROOT / "generated" / "dc_motor" / "motor_residuals.py")
+    module = _generated(_ROOT / "generated" / "dc_motor" / "motor.py")
     deviations = {"current": 2e-3, "speed": 5.0, "U": 0.05}
     expected = noise(motor.program, Situation(noise=deviations))
     monitor = module.Monitor()

@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 
 from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.rows import Row
-from bondgraph.runtime.diagnosis.tuning import height
+from bondgraph.runtime.diagnosis.tuning import Limit, height
 from bondgraph.runtime.log import Array
 
 _BETWEEN = 300.0  # rows between false alarms of each kind
@@ -19,7 +19,7 @@ _TOP = height(1.0, 1.0 / _BETWEEN)
 
 
 def _limits(memory: float = 1.0, residuals: int = 1) -> Array:
-    return np.array([[1.0, 1.0, 4.0, _TOP, 0.0, memory]] * residuals)
+    return np.array([Limit(1.0, 1.0, 4.0, _TOP, 0.0, memory)] * residuals)
 
 
 def _row(*value: float, bound: float = 0.0, valid: bool = True) -> Row:

@@ -10,10 +10,11 @@ import pytest
 
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.rows import Part, Row
+from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.log import Array, Mask
 
 #: Noise 1, a level of 4 sigma for samples, a sum of 3 for rows; of two residuals.
-_LIMITS = np.array([[1.0, 10.0, 4.0, 3.0, 0.0, 1.0]] * 2)
+_LIMITS = np.array([Limit(1.0, 10.0, 4.0, 3.0, 0.0, 1.0)] * 2)
 
 
 def _part(value: Array) -> Part:

@@ -40,7 +40,7 @@ def row(engine: Engine, value: float, valid: bool = True) -> Row:
 def told(learning: Learning, one: Row, healthy: bool = True) -> bool:
     """Whether the noise is known with this row, that no parameter moves."""
     one = one._replace(value=one.value - learning.limits[:, 4])  # as the watch has it
-    return bool(learning.row(one, np.zeros((0, 1)), healthy, np.zeros(1))[0])
+    return bool(learning.row(one, healthy, np.zeros(1))[0])
 
 
 def drawn(count: int, sigma: float = 1.0) -> list[float]:
@@ -99,14 +99,14 @@ def test_rows_of_a_small_fault_are_held_back_until_it_is_told() -> None:
         for value in drawn(45):
             one = row(engine, value)._replace(value=value - learning.limits[:, 4])
             assert not detection.row(one, learning.limits).any()
-            learning.row(one, np.zeros((0, 1)), True, detection.held)
+            learning.row(one, True, detection.held)
         before = float(learning.limits[0, 0])
         rows = 0
         for value in drawn(30, 0.5):
             one = row(engine, 3.0 + value)._replace(value=3.0 + value - learning.limits[:, 4])
             if detection.row(one, learning.limits).any():
                 break
-            learning.row(one, np.zeros((0, 1)), True, detection.held if keeps else np.zeros(1))
+            learning.row(one, True, detection.held if keeps else np.zeros(1))
             rows += 1
         assert (rows < 6) == keeps
         assert (float(learning.limits[0, 0]) < 1.01 * before) == keeps
@@ -151,7 +151,7 @@ def seen_after(rate: float, start: int, seed: int) -> int:
         if high or detection.row(one, learning.limits).any():
             return k - start
         if not learning.over:
-            learning.row(one, np.zeros((0, 1)), True, detection.held)
+            learning.row(one, True, detection.held)
     return 2500 - start
 
 

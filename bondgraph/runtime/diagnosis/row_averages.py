@@ -1,0 +1,101 @@
+"""How averages of rows add up while all is well: what one row owes the rows before, and the rest.
+
+A derivative of noise, as most residuals have one, is loud from row to row and gone in the long run:
+what it adds in one row it takes off in the next. The average of a row holds every sample of it, and
+what a row shows is seen better beside the rows before it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bondgraph.runtime.diagnosis.noise import noise, within
+from bondgraph.runtime.log import Array
+from bondgraph.text.tuples import NamedTuple
+
+LAGS = 4  #: rows before one that are added to it at most
+_EACH = 6  # rows that there have to be for each of its weights
+#: Of white noise behind a filter of third order: the sum of the correlations between averages of
+#: three time constants. What a residual differentiates has less.
+_WHITE = 2.135
+_SURE = 2.0  # deviations of a correlation that few rows show
+
+
+class Lasting(NamedTuple):
+    """Of the averages of one residual: they stand at `mean`, in its unit.
+
+    An average with so much of those before it as the `weights` say (LAGS,) has no memory in which
+    one row takes off what another has added. `unit` is the deviation with which such sums add up: n
+    of them have the variance n unit^2.
+    """
+
+    mean: float
+    weights: Array
+    unit: float
+
+
+def lasting(values: Array, owed: float, centred: bool, kappa: float) -> Lasting:
+    """What averages (n,) of rows of a healthy residual tell, NaN where it had no value.
+
+    Weights are positive: memory that is positive counts as in `noise`, and has room as there.
+    They are as many as Schwarz's criterion prefers; fewer than 24 rows tell no unit. `owed` and
+    `centred` as there, `kappa` is how many deviations matter: few rows tell them badly.
+
+    >>> draw = np.random.default_rng(1).standard_normal(2001)
+    >>> white = lasting(draw, 0.0, True, 4.0)
+    >>> f"{white.unit:.1f}"
+    '1.1'
+    >>> stepped = lasting(np.diff(draw), 0.0, True, 4.0)
+    >>> f"{stepped.unit / (1.0 + stepped.weights.sum()):.1f}"
+    '0.2'
+    """
+    known = within(values[:, None])[:, 0]
+    count = int(known.sum())
+    mean = float(values[known].mean()) if centred and count else 0.0
+    if count < LAGS * _EACH:
+        return Lasting(mean, np.zeros(LAGS), math.inf)
+    rest = np.where(known, values - mean, math.nan)
+    weights = _weights(rest)
+    added = with_before(rest, weights)
+    both = np.isfinite(added[1:]) & np.isfinite(added[:-1])
+    pairs, size = int(both.sum()), float(np.nansum(np.square(added)))
+    if not (pairs and size > 0.0):
+        return Lasting(mean, weights, math.inf)
+    next_ = float(added[1:][both] @ added[:-1][both]) / size
+    most = min(next_ + _SURE / math.sqrt(pairs), 0.9)
+    least = min(max((1.0 + most) / (1.0 - most), 1.0), _WHITE)
+    found = noise(added, owed, centred, least)
+    return Lasting(mean, weights, found.foreseen(kappa) * math.sqrt(found.memory))
+
+
+def with_before(values: Array, weights: Array) -> Array:
+    """Each of values (n,) with the ones before it by weight; NaN where one of these is missing."""
+    found = values.copy()
+    for k, weight in enumerate(weights.tolist(), 1):
+        if weight:
+            found[k:] += weight * values[:-k]
+            found[:k] = math.nan
+    return found
+
+
+def _weights(rest: Array) -> Array:
+    """By how much the rows before make the next one smaller the other way round, (LAGS,)."""
+    from scipy.optimize import nnls
+
+    best = np.zeros(LAGS)
+    lags = np.stack([rest[LAGS - k : len(rest) - k] for k in range(LAGS + 1)]) if (
+        len(rest) > LAGS) else np.empty((LAGS + 1, 0))  # fmt: skip
+    lags = lags[:, np.isfinite(lags).all(axis=0)]
+    count = lags.shape[1]
+    whole = float(np.square(lags[0]).sum())
+    if not whole > 0.0:
+        return best
+    least = 0.0
+    for order in range(1, min(LAGS, count // _EACH) + 1):
+        found, left = nnls(lags[1 : order + 1].T, -lags[0])
+        cost = count * math.log(max(left**2 / whole, 1e-12)) + order * math.log(count)
+        if cost < least:
+            best, least = np.append(found, np.zeros(LAGS - order)), cost
+    return best

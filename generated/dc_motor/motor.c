@@ -1,0 +1,818 @@
+/* motor.c: the residuals of Motor; generated, see the header. */
+#include "motor.h"
+
+#ifndef MOTOR_NO_THRESHOLDS
+#include <math.h>
+#endif
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef motor_real real;
+
+#define REAL(x) MOTOR_CONSTANT(x)
+#if defined MOTOR_FLOAT && !defined MOTOR_REAL
+#define MATH(name) name##f
+#else
+#define MATH(name) name
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* The larger of two numbers. */
+static real greatest(real left, real right)
+{
+    return right > left ? right : left;
+}
+
+/* The least bandwidth * sample_time at which a filter still moves. */
+#if defined MOTOR_FLOAT && !defined MOTOR_REAL
+#define SLOWEST REAL(0.0001)
+#else
+#define SLOWEST REAL(1.0e-09)
+#endif
+
+uint32_t motor_abi(void)
+{
+    return MOTOR_ABI;
+}
+
+const char *motor_digest(void)
+{
+    return MOTOR_DIGEST;
+}
+
+void motor_nominal(motor_parameters *parameters)
+{
+    parameters->L = REAL(0.0003);    /* H */
+    parameters->R = REAL(17.6);      /* Ohm */
+    parameters->k = REAL(0.00351);   /* N.m/A */
+    parameters->J = REAL(1.4e-08);   /* kg.m^2 */
+    parameters->f = REAL(1.19e-05);  /* N.m.s/rad */
+}
+
+/* Whether configure may go on with what it is given. */
+static motor_status checked(const motor_parameters *p, real sample_time, real bandwidth)
+{
+    const bool finite = finite_number(p->L + p->R + p->k + p->J + p->f);
+
+    if (!finite) {
+        return MOTOR_BAD_PARAMETER;
+    }
+    if (!(sample_time > REAL(0.0)) || !finite_number(sample_time)) {
+        return MOTOR_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return MOTOR_BAD_BANDWIDTH;
+    }
+    return MOTOR_OK;
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+const motor_coefficients motor_nominal_coefficients = {
+    REAL(0.00351),                 /* r1_speed */
+    REAL(17.6),                    /* r1_current */
+    REAL(0.0060000000000000045),   /* r1_w1_current */
+    REAL(3.3333333333333396e-05),  /* bend1 */
+    REAL(0.9801980198019802),      /* a */
+    REAL(0.00990099009900991),     /* b */
+    REAL(1.19e-05),                /* r2_speed */
+    REAL(2.8000000000000023e-07),  /* r2_w1_speed */
+    {462u, 462u},                  /* samples until each is valid */
+    462u                           /* the longest of these */
+};
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(motor_coefficients *c, const motor_parameters *p, real sample_time,
+        real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* dc_motor.bg:13: r1: factor of speed: k */
+    c->r1_speed = p->k;
+
+    /* r1: factor of current: R */
+    c->r1_current = p->R;
+
+    /* r1: factor of current' */
+    c->r1_w1_current = p->L * w;
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+
+    /* dc_motor.bg:20: r2: factor of speed: f */
+    c->r2_speed = p->f;
+
+    /* r2: factor of speed' */
+    c->r2_w1_speed = p->J * w;
+}
+
+static bool coefficients_are_finite(const motor_coefficients *c)
+{
+    return finite_number(c->r1_speed + c->r1_current + c->r1_w1_current + c->bend1 + c->a + c->b
+            + c->r2_speed + c->r2_w1_speed);
+}
+
+motor_status motor_configure(
+    motor_coefficients *coefficients,
+    const motor_parameters *parameters,
+    motor_real sample_time,
+    motor_real bandwidth)
+{
+    motor_coefficients *c = coefficients;
+    const motor_status status = checked(parameters, sample_time, bandwidth);
+    int k;
+
+    for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+        c->settle[k] = UINT32_MAX;
+    }
+    c->longest = UINT32_MAX;
+    if (status != MOTOR_OK) {
+        return status;
+    }
+    compute_coefficients(c, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(c)) {
+        return MOTOR_BAD_COEFFICIENT;
+    }
+    c->settle[MOTOR_R1] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->settle[MOTOR_R2] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->longest = c->settle[MOTOR_R1];
+    return MOTOR_OK;
+}
+
+/* r1 on one sample.
+ * dc_motor.bg:13: r1 = U - k*speed - R*current - L*D(current) */
+static void run_r1(
+    const motor_coefficients *c, motor_memory *x, const motor_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_s2 = REAL(0.0);
+        x->r1_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* terms of order 0 */
+    const real g0 = s->U - c->r1_speed * s->speed - c->r1_current * s->current;
+
+    /* degree 1 */
+    const real d1 = c->r1_w1_current * s->current;
+
+    /* error of order 0 */
+    const real e0 = c->bend1 * g0;
+
+    /* the filter multiplied out */
+    const real p1_1 = e0 - d1;
+
+    /* stage 2 */
+    const real u2 = g0 - p1_1;
+    const real y2 = x->r1_s2 + b * u2;
+    x->r1_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + p1_1 + e0;
+    const real y1 = x->r1_s1 + b * u1;
+    x->r1_s1 = a * y1 + b * u1;
+
+    r[MOTOR_R1] = y1 - e0;
+}
+
+/* r2 on one sample.
+ * dc_motor.bg:20: r2 = load + f*speed + J*D(speed) - k*current */
+static void run_r2(
+    const motor_coefficients *c, motor_memory *x, const motor_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_s2 = REAL(0.0);
+        x->r2_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* terms of order 0 */
+    const real g0 = s->load + c->r2_speed * s->speed - c->r1_speed * s->current;
+
+    /* degree 1 */
+    const real d1 = c->r2_w1_speed * s->speed;
+
+    /* error of order 0 */
+    const real e0 = c->bend1 * g0;
+
+    /* the filter multiplied out */
+    const real p1_1 = d1 + e0;
+
+    /* stage 2 */
+    const real u2 = g0 - p1_1;
+    const real y2 = x->r2_s2 + b * u2;
+    x->r2_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + p1_1 + e0;
+    const real y1 = x->r2_s1 + b * u1;
+    x->r2_s1 = a * y1 + b * u1;
+
+    r[MOTOR_R2] = y1 - e0;
+}
+
+/* Adds the samples that were as usual to all ages. */
+static void bring_up_to_date(motor_memory *x)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        const uint32_t left = UINT32_MAX - x->age[k];
+
+        x->age[k] += x->usual < left ? x->usual : left;
+    }
+    x->usual = 0u;
+}
+
+/* Ages and validity one by one: a number that is not finite makes the next sample the first. */
+static void count_samples(
+    const motor_coefficients *c,
+    motor_memory *x,
+    motor_residuals *out)
+{
+    /* the residuals that are computed, and what each one goes with */
+    static const uint8_t number[] = {
+        0, 1
+    };
+    static const uint8_t part[] = {
+        0, 1
+    };
+    bool finite[2];
+    int k;
+
+    finite[0] = true;
+    finite[1] = true;
+    for (k = 0; k < 2; ++k) {
+        finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
+    }
+    bring_up_to_date(x);
+    x->youngest = UINT32_MAX;
+    for (k = 0; k < 2; ++k) {
+        x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
+        x->youngest = x->age[k] < x->youngest ? x->age[k] : x->youngest;
+    }
+    for (k = 0; k < 2; ++k) {
+        out->value[number[k]] = finite[part[k]] ? out->value[number[k]] : REAL(0.0);
+        out->valid[number[k]] = x->age[part[k]] > c->settle[number[k]];
+    }
+}
+
+void motor_reset(motor_memory *memory)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        memory->age[k] = 0u;
+    }
+    memory->youngest = 0u;
+    memory->usual = 0u;
+}
+
+void motor_step(
+    const motor_coefficients *coefficients,
+    motor_memory *memory,
+    const motor_samples *samples,
+    motor_residuals *residuals)
+{
+    const motor_coefficients *c = coefficients;
+    motor_memory *x = memory;
+    const motor_samples *s = samples;
+    real *r = residuals->value;
+    int k;
+
+    run_r1(c, x, s, r);
+    run_r2(c, x, s, r);
+    /* a sum is finite only if all its terms are */
+    if (x->youngest > c->longest && finite_number(r[MOTOR_R1] + r[MOTOR_R2])) {
+        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
+        for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+            residuals->valid[k] = true;
+        }
+    } else {
+        count_samples(c, x, residuals);
+    }
+}
+
+#ifndef MOTOR_NO_THRESHOLDS
+
+const motor_threshold_coefficients motor_threshold_nominal_coefficients = {
+    REAL(0.8800000000000001),   /* r1_w1_current */
+    REAL(0.9801980198019802),   /* a */
+    REAL(0.00990099009900991),  /* b */
+    REAL(7.02e-05),             /* r1_w2_speed */
+    REAL(1.19e-06),             /* r2_w2_speed */
+    {462u, 462u},               /* samples until each is valid */
+    462u                        /* the longest of these */
+};
+
+/* The coefficients, from the parameters. */
+static void bound_compute_coefficients(motor_threshold_coefficients *c, const motor_parameters *p,
+        real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* dc_motor.bg:13: r1_w1: factor of current */
+    c->r1_w1_current = p->R / REAL(20.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+
+    /* dc_motor.bg:13: r1_w2: factor of speed */
+    c->r1_w2_speed = p->k / REAL(50.0);
+
+    /* dc_motor.bg:20: r2_w2: factor of speed */
+    c->r2_w2_speed = p->f / REAL(10.0);
+}
+
+static bool bound_coefficients_are_finite(const motor_threshold_coefficients *c)
+{
+    return finite_number(c->r1_w1_current + c->a + c->b + c->r1_w2_speed + c->r2_w2_speed);
+}
+
+motor_status motor_threshold_configure(
+    motor_threshold_coefficients *coefficients,
+    const motor_parameters *parameters,
+    motor_real sample_time,
+    motor_real bandwidth)
+{
+    motor_threshold_coefficients *c = coefficients;
+    const motor_status status = checked(parameters, sample_time, bandwidth);
+    int k;
+
+    for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+        c->settle[k] = UINT32_MAX;
+    }
+    c->longest = UINT32_MAX;
+    if (status != MOTOR_OK) {
+        return status;
+    }
+    bound_compute_coefficients(c, parameters, sample_time, bandwidth);
+    if (!bound_coefficients_are_finite(c)) {
+        return MOTOR_BAD_COEFFICIENT;
+    }
+    c->settle[MOTOR_R1] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->settle[MOTOR_R2] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->longest = c->settle[MOTOR_R1];
+    return MOTOR_OK;
+}
+
+/* r1 on one sample.
+ * dc_motor.bg:13: r1: how far r1 can be from zero if no parameter is out of tolerance */
+static void bound_r1(
+    const motor_threshold_coefficients *c, motor_threshold_memory *x, const motor_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_w1_s2 = REAL(0.0);
+        x->r1_w1_s1 = REAL(0.0);
+    }
+
+    /* r1_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    /* r1_w1: stage 2 */
+    const real w1_u2 = -c->r1_w1_current * s->current;
+    const real w1_y2 = x->r1_w1_s2 + w1_b * w1_u2;
+    x->r1_w1_s2 = w1_a * w1_y2 + w1_b * w1_u2;
+
+    /* r1_w1: stage 1 */
+    const real w1_u1 = w1_y2;
+    const real w1_y1 = x->r1_w1_s1 + w1_b * w1_u1;
+    x->r1_w1_s1 = w1_a * w1_y1 + w1_b * w1_u1;
+
+    /* what the tolerance of R can do */
+    const real w1 = w1_y1;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_w2_s2 = REAL(0.0);
+        x->r1_w2_s1 = REAL(0.0);
+    }
+
+    /* r1_w2: stage 2 */
+    const real w2_u2 = -c->r1_w2_speed * s->speed;
+    const real w2_y2 = x->r1_w2_s2 + w1_b * w2_u2;
+    x->r1_w2_s2 = w1_a * w2_y2 + w1_b * w2_u2;
+
+    /* r1_w2: stage 1 */
+    const real w2_u1 = w2_y2;
+    const real w2_y1 = x->r1_w2_s1 + w1_b * w2_u1;
+    x->r1_w2_s1 = w1_a * w2_y1 + w1_b * w2_u1;
+
+    /* what the tolerance of k can do */
+    const real w2 = w2_y1;
+
+    r[MOTOR_R1] = MATH(fabs)(w1) + MATH(fabs)(w2);
+}
+
+/* r2 on one sample.
+ * dc_motor.bg:20: r2: how far r2 can be from zero if no parameter is out of tolerance */
+static void bound_r2(
+    const motor_threshold_coefficients *c, motor_threshold_memory *x, const motor_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_w1_s2 = REAL(0.0);
+        x->r2_w1_s1 = REAL(0.0);
+    }
+
+    /* r2_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    /* r2_w1: stage 2 */
+    const real w1_u2 = -c->r1_w2_speed * s->current;
+    const real w1_y2 = x->r2_w1_s2 + w1_b * w1_u2;
+    x->r2_w1_s2 = w1_a * w1_y2 + w1_b * w1_u2;
+
+    /* r2_w1: stage 1 */
+    const real w1_u1 = w1_y2;
+    const real w1_y1 = x->r2_w1_s1 + w1_b * w1_u1;
+    x->r2_w1_s1 = w1_a * w1_y1 + w1_b * w1_u1;
+
+    /* what the tolerance of k can do */
+    const real w1 = w1_y1;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_w2_s2 = REAL(0.0);
+        x->r2_w2_s1 = REAL(0.0);
+    }
+
+    /* r2_w2: stage 2 */
+    const real w2_u2 = c->r2_w2_speed * s->speed;
+    const real w2_y2 = x->r2_w2_s2 + w1_b * w2_u2;
+    x->r2_w2_s2 = w1_a * w2_y2 + w1_b * w2_u2;
+
+    /* r2_w2: stage 1 */
+    const real w2_u1 = w2_y2;
+    const real w2_y1 = x->r2_w2_s1 + w1_b * w2_u1;
+    x->r2_w2_s1 = w1_a * w2_y1 + w1_b * w2_u1;
+
+    /* what the tolerance of f can do */
+    const real w2 = w2_y1;
+
+    r[MOTOR_R2] = MATH(fabs)(w1) + MATH(fabs)(w2);
+}
+
+/* Adds the samples that were as usual to all ages. */
+static void bound_bring_up_to_date(motor_threshold_memory *x)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        const uint32_t left = UINT32_MAX - x->age[k];
+
+        x->age[k] += x->usual < left ? x->usual : left;
+    }
+    x->usual = 0u;
+}
+
+/* Ages and validity one by one: a number that is not finite makes the next sample the first. */
+static void bound_count_samples(
+    const motor_threshold_coefficients *c,
+    motor_threshold_memory *x,
+    motor_residuals *out)
+{
+    /* the thresholds that are computed, and what each one goes with */
+    static const uint8_t number[] = {
+        0, 1
+    };
+    static const uint8_t part[] = {
+        0, 1
+    };
+    bool finite[2];
+    int k;
+
+    finite[0] = true;
+    finite[1] = true;
+    for (k = 0; k < 2; ++k) {
+        finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
+    }
+    bound_bring_up_to_date(x);
+    x->youngest = UINT32_MAX;
+    for (k = 0; k < 2; ++k) {
+        x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
+        x->youngest = x->age[k] < x->youngest ? x->age[k] : x->youngest;
+    }
+    for (k = 0; k < 2; ++k) {
+        out->value[number[k]] = finite[part[k]] ? out->value[number[k]] : REAL(0.0);
+        out->valid[number[k]] = x->age[part[k]] > c->settle[number[k]];
+    }
+}
+
+void motor_threshold_reset(motor_threshold_memory *memory)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        memory->age[k] = 0u;
+    }
+    memory->youngest = 0u;
+    memory->usual = 0u;
+}
+
+void motor_threshold_step(
+    const motor_threshold_coefficients *coefficients,
+    motor_threshold_memory *memory,
+    const motor_samples *samples,
+    motor_residuals *thresholds)
+{
+    const motor_threshold_coefficients *c = coefficients;
+    motor_threshold_memory *x = memory;
+    const motor_samples *s = samples;
+    real *r = thresholds->value;
+    int k;
+
+    bound_r1(c, x, s, r);
+    bound_r2(c, x, s, r);
+    /* a sum is finite only if all its terms are */
+    if (x->youngest > c->longest && finite_number(r[MOTOR_R1] + r[MOTOR_R2])) {
+        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
+        for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+            thresholds->valid[k] = true;
+        }
+    } else {
+        bound_count_samples(c, x, thresholds);
+    }
+}
+
+#endif
+
+const char motor_fault_name[MOTOR_FAULTS][8] = {
+    "L", "R", "U", "k", "current", "speed", "J", "f", "load",
+};
+
+const uint16_t motor_fault_class[MOTOR_FAULTS] = {
+    0u, 0u, 0u, 1u, 1u, 1u, 2u, 2u, 2u,
+};
+
+const char motor_residual_name[MOTOR_RESIDUALS][3] = {
+    "r1", "r2",
+};
+
+/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
+static const uint8_t signature[MOTOR_CLASSES][MOTOR_RESIDUALS] = {
+    {3u, 0u},
+    {3u, 3u},
+    {0u, 3u},
+};
+
+#define NEVER REAL(1e30) /* a limit that nothing exceeds */
+#define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
+#define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
+#define SHARE REAL(0.3333333333333333) /* of the height, that a row adds at most */
+
+/* A sum, kept between zero and twice its height. */
+static real kept(real sum, real height)
+{
+    const real most = height + height;
+
+    return sum < REAL(0.0) ? REAL(0.0) : sum > most ? most : sum;
+}
+
+/* One row more of residual k; whether a sum is too high. off: from the mean, out: beyond bound. */
+static bool add_row(
+    motor_diagnosis *d, const motor_limit *limit, int k, real off, real out, real bound)
+{
+    const real top = limit->height + OVERSHOOT;
+    const real beyond = out > REAL(0.0) ? out : REAL(0.0);
+    const real loud = beyond * beyond * limit->loud - limit->drift;
+    const real most = SHARE * top;
+
+    d->above[k] = kept(d->above[k] + ((off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->below[k] = kept(d->below[k] + ((-off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->louder[k] = kept(d->louder[k] + (loud > most ? most : loud), top);
+    return d->above[k] > limit->height || d->below[k] > limit->height || d->louder[k] > top;
+}
+
+static bool sums_are_zero(const motor_diagnosis *d, int k)
+{
+    const real sum = d->above[k] + d->below[k] + d->louder[k];
+
+    return !(sum > REAL(0.0));
+}
+
+static void forget_sums(motor_diagnosis *d, int k)
+{
+    d->above[k] = REAL(0.0);
+    d->below[k] = REAL(0.0);
+    d->louder[k] = REAL(0.0);
+    d->streak[k] = 0u;
+}
+
+/* Residual k in one sample; whether it goes into alarm. */
+static bool watch(
+    motor_diagnosis *d, const motor_limit *limit, int k, real value, real bound, bool row)
+{
+    const real off = value - limit->mean;
+    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    bool high = false;
+
+    if (row) {
+        high = add_row(d, limit, k, off, out, bound);
+    }
+    if (d->state[k] == MOTOR_ALARM) {
+        d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
+            d->quiet = 0u;
+        }
+        return false;
+    }
+    d->state[k] = MOTOR_HEALTHY;
+    d->streak[k] = out > limit->level ? d->streak[k] + 1u : 0u;
+    if (d->streak[k] < d->least && !high) {
+        return false;
+    }
+    d->state[k] = MOTOR_ALARM;
+    d->since[k] = 0u;
+    return true;
+}
+
+/* What is left of a class of faults. */
+static motor_candidate left_of(const motor_diagnosis *d, const uint8_t *own)
+{
+    motor_candidate found = MOTOR_LIKELY;
+    int k;
+
+    for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+        if (d->state[k] == MOTOR_ALARM && own[k] == 0u) {
+            return MOTOR_RULED_OUT;
+        }
+        if (d->state[k] == MOTOR_HEALTHY && own[k] == 3u) {
+            found = MOTOR_SMALL;
+        }
+    }
+    return found;
+}
+
+/* Which classes of faults the residuals leave, and the one if it is one. */
+static void judge(motor_diagnosis *d)
+{
+    int likely = 0;
+    int c;
+
+    d->fault_class = MOTOR_UNKNOWN;
+    for (c = 0; c < MOTOR_CLASSES; ++c) {
+        const motor_candidate left = left_of(d, signature[c]);
+
+        d->candidate[c] = (uint8_t)left;
+        if (left == MOTOR_LIKELY) {
+            d->fault_class = (int16_t)c;
+            ++likely;
+        }
+    }
+    if (likely != 1 || d->settled < 2u * d->row) {
+        d->fault_class = MOTOR_UNKNOWN;
+    }
+}
+
+motor_limit motor_limit_of(motor_real level)
+{
+    motor_limit limit;
+
+    limit.mean = REAL(0.0);
+    limit.level = level;
+    limit.unit = REAL(0.0);
+    limit.loud = REAL(0.0);
+    limit.drift = REAL(0.5);
+    limit.height = NEVER;
+    limit.bound = REAL(0.0);
+    return limit;
+}
+
+void motor_clear(motor_diagnosis *diagnosis)
+{
+    int k;
+
+    for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+        if (diagnosis->state[k] == MOTOR_ALARM) {
+            diagnosis->state[k] = MOTOR_HEALTHY;
+        }
+        diagnosis->since[k] = 0u;
+        forget_sums(diagnosis, k);
+    }
+    for (k = 0; k < MOTOR_CLASSES; ++k) {
+        diagnosis->candidate[k] = MOTOR_RULED_OUT;
+    }
+    diagnosis->fault_class = MOTOR_UNKNOWN;
+    diagnosis->quiet = 0u;
+    diagnosis->settled = 0u;
+}
+
+void motor_diagnosis_reset(motor_diagnosis *diagnosis)
+{
+    int k;
+
+    diagnosis->row = MOTOR_ROW;
+    diagnosis->least = 15u;
+    diagnosis->hold = 10u * MOTOR_ROW;
+    diagnosis->latch = false;
+    diagnosis->tick = 0u;
+    for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+        diagnosis->state[k] = MOTOR_BLIND;
+    }
+    motor_clear(diagnosis);
+}
+
+bool motor_diagnose(
+    motor_diagnosis *diagnosis,
+    const motor_limit *limits,
+    const motor_real *bounds,
+    const motor_residuals *residuals)
+{
+    motor_diagnosis *d = diagnosis;
+    bool alarm = false;
+    bool fresh = false;
+    bool row;
+    int k;
+
+    d->tick += 1u;
+    row = d->tick >= d->row;
+    if (row) {
+        d->tick = 0u;
+    }
+    d->quiet += d->quiet < UINT32_MAX ? 1u : 0u;
+    d->settled += d->settled < UINT32_MAX ? 1u : 0u;
+    for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+        if (residuals->valid[k]) {
+            const real bound = bounds ? bounds[k] : limits[k].bound;
+
+            fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
+        } else {
+            forget_sums(d, k);
+            if (d->state[k] == MOTOR_ALARM) {
+                d->quiet = 0u; /* nobody knows that it is over */
+            } else {
+                d->state[k] = MOTOR_BLIND;
+            }
+        }
+        alarm = alarm || d->state[k] == MOTOR_ALARM;
+    }
+    if (fresh) {
+        d->quiet = 0u;
+        d->settled = 0u;
+    }
+    if (alarm && !d->latch && d->quiet >= d->hold) {
+        motor_clear(d);
+        return false;
+    }
+    if (fresh || (alarm && row)) {
+        judge(d);
+    }
+    return alarm;
+}

@@ -1,0 +1,749 @@
+/* quarter_car.c: the residuals of QuarterCar; generated, see the header. */
+#include "quarter_car.h"
+
+#ifndef QUARTER_CAR_NO_THRESHOLDS
+#include <math.h>
+#endif
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef quarter_car_real real;
+
+#define REAL(x) QUARTER_CAR_CONSTANT(x)
+#if defined QUARTER_CAR_FLOAT && !defined QUARTER_CAR_REAL
+#define MATH(name) name##f
+#else
+#define MATH(name) name
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* The larger of two numbers. */
+static real greatest(real left, real right)
+{
+    return right > left ? right : left;
+}
+
+/* The least bandwidth * sample_time at which a filter still moves. */
+#if defined QUARTER_CAR_FLOAT && !defined QUARTER_CAR_REAL
+#define SLOWEST REAL(0.0001)
+#else
+#define SLOWEST REAL(1.0e-09)
+#endif
+
+uint32_t quarter_car_abi(void)
+{
+    return QUARTER_CAR_ABI;
+}
+
+const char *quarter_car_digest(void)
+{
+    return QUARTER_CAR_DIGEST;
+}
+
+void quarter_car_nominal(quarter_car_parameters *parameters)
+{
+    parameters->g = REAL(9.81);      /* m/s^2 */
+    parameters->ms = REAL(320.0);    /* kg */
+    parameters->ks = REAL(18000.0);  /* N/m */
+    parameters->cs = REAL(1000.0);   /* kg/s */
+}
+
+/* Whether configure may go on with what it is given. */
+static quarter_car_status checked(const quarter_car_parameters *p, real sample_time, real bandwidth)
+{
+    const bool finite = finite_number(p->g + p->ms + p->ks + p->cs);
+
+    if (!finite) {
+        return QUARTER_CAR_BAD_PARAMETER;
+    }
+    if (!(sample_time > REAL(0.0)) || !finite_number(sample_time)) {
+        return QUARTER_CAR_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return QUARTER_CAR_BAD_BANDWIDTH;
+    }
+    return QUARTER_CAR_OK;
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+const quarter_car_coefficients quarter_car_nominal_coefficients = {
+    REAL(3139.2000000000003),      /* r1_constant */
+    REAL(18000.0),                 /* r1_stroke */
+    REAL(1000.0),                  /* r1_vw */
+    REAL(6400.0000000000055),      /* r1_w1_vb */
+    REAL(3.3333333333333396e-05),  /* bend1 */
+    REAL(0.9801980198019802),      /* a */
+    REAL(0.00990099009900991),     /* b */
+    REAL(20.000000000000018),      /* r2_w1_stroke */
+    {462u, 462u},                  /* samples until each is valid */
+    462u                           /* the longest of these */
+};
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(quarter_car_coefficients *c, const quarter_car_parameters *p,
+        real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* quarter_car.bg:15: r1: factor of 1: g*ms */
+    c->r1_constant = p->g * p->ms;
+
+    /* r1: factor of stroke: ks */
+    c->r1_stroke = p->ks;
+
+    /* r1: factor of vw: cs */
+    c->r1_vw = p->cs;
+
+    /* r1: factor of vb' */
+    c->r1_w1_vb = p->ms * w;
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+
+    /* quarter_car.bg:24: r2: factor of stroke' */
+    c->r2_w1_stroke = w;
+}
+
+static bool coefficients_are_finite(const quarter_car_coefficients *c)
+{
+    return finite_number(c->r1_constant + c->r1_stroke + c->r1_vw + c->r1_w1_vb + c->bend1 + c->a
+            + c->b + c->r2_w1_stroke);
+}
+
+quarter_car_status quarter_car_configure(
+    quarter_car_coefficients *coefficients,
+    const quarter_car_parameters *parameters,
+    quarter_car_real sample_time,
+    quarter_car_real bandwidth)
+{
+    quarter_car_coefficients *c = coefficients;
+    const quarter_car_status status = checked(parameters, sample_time, bandwidth);
+    int k;
+
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        c->settle[k] = UINT32_MAX;
+    }
+    c->longest = UINT32_MAX;
+    if (status != QUARTER_CAR_OK) {
+        return status;
+    }
+    compute_coefficients(c, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(c)) {
+        return QUARTER_CAR_BAD_COEFFICIENT;
+    }
+    c->settle[QUARTER_CAR_R1] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->settle[QUARTER_CAR_R2] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->longest = c->settle[QUARTER_CAR_R1];
+    return QUARTER_CAR_OK;
+}
+
+/* r1 on one sample.
+ * quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb) */
+static void run_r1(
+    const quarter_car_coefficients *c, quarter_car_memory *x, const quarter_car_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_s2 = REAL(0.0);
+        x->r1_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* terms of order 0 */
+    const real g0 = c->r1_stroke * s->stroke + c->r1_vw * s->vw - c->r1_constant - c->r1_vw * s->vb;
+
+    /* degree 1 */
+    const real d1 = c->r1_w1_vb * s->vb;
+
+    /* error of order 0 */
+    const real e0 = c->bend1 * g0;
+
+    /* the filter multiplied out */
+    const real p1_1 = e0 - d1;
+
+    /* stage 2 */
+    const real u2 = g0 - p1_1;
+    const real y2 = x->r1_s2 + b * u2;
+    x->r1_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + p1_1 + e0;
+    const real y1 = x->r1_s1 + b * u1;
+    x->r1_s1 = a * y1 + b * u1;
+
+    r[QUARTER_CAR_R1] = y1 - e0;
+}
+
+/* r2 on one sample.
+ * quarter_car.bg:24: r2 = vw - vb - D(stroke) */
+static void run_r2(
+    const quarter_car_coefficients *c, quarter_car_memory *x, const quarter_car_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_s2 = REAL(0.0);
+        x->r2_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* terms of order 0 */
+    const real g0 = s->vw - s->vb;
+
+    /* degree 1 */
+    const real d1 = c->r2_w1_stroke * s->stroke;
+
+    /* error of order 0 */
+    const real e0 = c->bend1 * g0;
+
+    /* the filter multiplied out */
+    const real p1_1 = e0 - d1;
+
+    /* stage 2 */
+    const real u2 = g0 - p1_1;
+    const real y2 = x->r2_s2 + b * u2;
+    x->r2_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + p1_1 + e0;
+    const real y1 = x->r2_s1 + b * u1;
+    x->r2_s1 = a * y1 + b * u1;
+
+    r[QUARTER_CAR_R2] = y1 - e0;
+}
+
+/* Adds the samples that were as usual to all ages. */
+static void bring_up_to_date(quarter_car_memory *x)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        const uint32_t left = UINT32_MAX - x->age[k];
+
+        x->age[k] += x->usual < left ? x->usual : left;
+    }
+    x->usual = 0u;
+}
+
+/* Ages and validity one by one: a number that is not finite makes the next sample the first. */
+static void count_samples(
+    const quarter_car_coefficients *c,
+    quarter_car_memory *x,
+    quarter_car_residuals *out)
+{
+    /* the residuals that are computed, and what each one goes with */
+    static const uint8_t number[] = {
+        0, 1
+    };
+    static const uint8_t part[] = {
+        0, 1
+    };
+    bool finite[2];
+    int k;
+
+    finite[0] = true;
+    finite[1] = true;
+    for (k = 0; k < 2; ++k) {
+        finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
+    }
+    bring_up_to_date(x);
+    x->youngest = UINT32_MAX;
+    for (k = 0; k < 2; ++k) {
+        x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
+        x->youngest = x->age[k] < x->youngest ? x->age[k] : x->youngest;
+    }
+    for (k = 0; k < 2; ++k) {
+        out->value[number[k]] = finite[part[k]] ? out->value[number[k]] : REAL(0.0);
+        out->valid[number[k]] = x->age[part[k]] > c->settle[number[k]];
+    }
+}
+
+void quarter_car_reset(quarter_car_memory *memory)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        memory->age[k] = 0u;
+    }
+    memory->youngest = 0u;
+    memory->usual = 0u;
+}
+
+void quarter_car_step(
+    const quarter_car_coefficients *coefficients,
+    quarter_car_memory *memory,
+    const quarter_car_samples *samples,
+    quarter_car_residuals *residuals)
+{
+    const quarter_car_coefficients *c = coefficients;
+    quarter_car_memory *x = memory;
+    const quarter_car_samples *s = samples;
+    real *r = residuals->value;
+    int k;
+
+    run_r1(c, x, s, r);
+    run_r2(c, x, s, r);
+    /* a sum is finite only if all its terms are */
+    if (x->youngest > c->longest && finite_number(r[QUARTER_CAR_R1] + r[QUARTER_CAR_R2])) {
+        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
+        for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+            residuals->valid[k] = true;
+        }
+    } else {
+        count_samples(c, x, residuals);
+    }
+}
+
+#ifndef QUARTER_CAR_NO_THRESHOLDS
+
+const quarter_car_threshold_coefficients quarter_car_threshold_nominal_coefficients = {
+    REAL(100.0),                /* r1_w1_vw */
+    REAL(0.9801980198019802),   /* a */
+    REAL(0.00990099009900991),  /* b */
+    {462u, 462u},               /* samples until each is valid */
+    462u                        /* the longest of these */
+};
+
+/* The coefficients, from the parameters. */
+static void bound_compute_coefficients(quarter_car_threshold_coefficients *c,
+        const quarter_car_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* quarter_car.bg:15: r1_w1: factor of vw */
+    c->r1_w1_vw = p->cs / REAL(10.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+}
+
+static bool bound_coefficients_are_finite(const quarter_car_threshold_coefficients *c)
+{
+    return finite_number(c->r1_w1_vw + c->a + c->b);
+}
+
+quarter_car_status quarter_car_threshold_configure(
+    quarter_car_threshold_coefficients *coefficients,
+    const quarter_car_parameters *parameters,
+    quarter_car_real sample_time,
+    quarter_car_real bandwidth)
+{
+    quarter_car_threshold_coefficients *c = coefficients;
+    const quarter_car_status status = checked(parameters, sample_time, bandwidth);
+    int k;
+
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        c->settle[k] = UINT32_MAX;
+    }
+    c->longest = UINT32_MAX;
+    if (status != QUARTER_CAR_OK) {
+        return status;
+    }
+    bound_compute_coefficients(c, parameters, sample_time, bandwidth);
+    if (!bound_coefficients_are_finite(c)) {
+        return QUARTER_CAR_BAD_COEFFICIENT;
+    }
+    c->settle[QUARTER_CAR_R1] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->settle[QUARTER_CAR_R2] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->longest = c->settle[QUARTER_CAR_R1];
+    return QUARTER_CAR_OK;
+}
+
+/* r1 on one sample.
+ * quarter_car.bg:15: r1: how far r1 can be from zero if no parameter is out of tolerance */
+static void bound_r1(
+    const quarter_car_threshold_coefficients *c, quarter_car_threshold_memory *x, const quarter_car_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_w1_s2 = REAL(0.0);
+        x->r1_w1_s1 = REAL(0.0);
+    }
+
+    /* r1_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    /* r1_w1: stage 2 */
+    const real w1_u2 = c->r1_w1_vw * s->vw - c->r1_w1_vw * s->vb;
+    const real w1_y2 = x->r1_w1_s2 + w1_b * w1_u2;
+    x->r1_w1_s2 = w1_a * w1_y2 + w1_b * w1_u2;
+
+    /* r1_w1: stage 1 */
+    const real w1_u1 = w1_y2;
+    const real w1_y1 = x->r1_w1_s1 + w1_b * w1_u1;
+    x->r1_w1_s1 = w1_a * w1_y1 + w1_b * w1_u1;
+
+    /* what the tolerance of cs can do */
+    const real w1 = w1_y1;
+
+    r[QUARTER_CAR_R1] = MATH(fabs)(w1);
+}
+
+/* r2 on one sample.
+ * quarter_car.bg:24: r2: how far r2 can be from zero if no parameter is out of tolerance */
+static void bound_r2(
+    const quarter_car_threshold_coefficients *c, quarter_car_threshold_memory *x, const quarter_car_samples *s, real *r)
+{
+    (void)c;
+    (void)x;
+    (void)s;
+
+    r[QUARTER_CAR_R2] = REAL(0.0);
+}
+
+/* Adds the samples that were as usual to all ages. */
+static void bound_bring_up_to_date(quarter_car_threshold_memory *x)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        const uint32_t left = UINT32_MAX - x->age[k];
+
+        x->age[k] += x->usual < left ? x->usual : left;
+    }
+    x->usual = 0u;
+}
+
+/* Ages and validity one by one: a number that is not finite makes the next sample the first. */
+static void bound_count_samples(
+    const quarter_car_threshold_coefficients *c,
+    quarter_car_threshold_memory *x,
+    quarter_car_residuals *out)
+{
+    /* the thresholds that are computed, and what each one goes with */
+    static const uint8_t number[] = {
+        0, 1
+    };
+    static const uint8_t part[] = {
+        0, 1
+    };
+    bool finite[2];
+    int k;
+
+    finite[0] = true;
+    finite[1] = true;
+    for (k = 0; k < 2; ++k) {
+        finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
+    }
+    bound_bring_up_to_date(x);
+    x->youngest = UINT32_MAX;
+    for (k = 0; k < 2; ++k) {
+        x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
+        x->youngest = x->age[k] < x->youngest ? x->age[k] : x->youngest;
+    }
+    for (k = 0; k < 2; ++k) {
+        out->value[number[k]] = finite[part[k]] ? out->value[number[k]] : REAL(0.0);
+        out->valid[number[k]] = x->age[part[k]] > c->settle[number[k]];
+    }
+}
+
+void quarter_car_threshold_reset(quarter_car_threshold_memory *memory)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        memory->age[k] = 0u;
+    }
+    memory->youngest = 0u;
+    memory->usual = 0u;
+}
+
+void quarter_car_threshold_step(
+    const quarter_car_threshold_coefficients *coefficients,
+    quarter_car_threshold_memory *memory,
+    const quarter_car_samples *samples,
+    quarter_car_residuals *thresholds)
+{
+    const quarter_car_threshold_coefficients *c = coefficients;
+    quarter_car_threshold_memory *x = memory;
+    const quarter_car_samples *s = samples;
+    real *r = thresholds->value;
+    int k;
+
+    bound_r1(c, x, s, r);
+    bound_r2(c, x, s, r);
+    /* a sum is finite only if all its terms are */
+    if (x->youngest > c->longest && finite_number(r[QUARTER_CAR_R1] + r[QUARTER_CAR_R2])) {
+        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
+        for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+            thresholds->valid[k] = true;
+        }
+    } else {
+        bound_count_samples(c, x, thresholds);
+    }
+}
+
+#endif
+
+const char quarter_car_fault_name[QUARTER_CAR_FAULTS][7] = {
+    "ms", "ks", "cs", "vw", "vb", "stroke",
+};
+
+const uint16_t quarter_car_fault_class[QUARTER_CAR_FAULTS] = {
+    0u, 0u, 0u, 1u, 1u, 1u,
+};
+
+const char quarter_car_residual_name[QUARTER_CAR_RESIDUALS][3] = {
+    "r1", "r2",
+};
+
+/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
+static const uint8_t signature[QUARTER_CAR_CLASSES][QUARTER_CAR_RESIDUALS] = {
+    {3u, 0u},
+    {3u, 3u},
+};
+
+#define NEVER REAL(1e30) /* a limit that nothing exceeds */
+#define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
+#define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
+#define SHARE REAL(0.3333333333333333) /* of the height, that a row adds at most */
+
+/* A sum, kept between zero and twice its height. */
+static real kept(real sum, real height)
+{
+    const real most = height + height;
+
+    return sum < REAL(0.0) ? REAL(0.0) : sum > most ? most : sum;
+}
+
+/* One row more of residual k; whether a sum is too high. off: from the mean, out: beyond bound. */
+static bool add_row(
+    quarter_car_diagnosis *d, const quarter_car_limit *limit, int k, real off, real out, real bound)
+{
+    const real top = limit->height + OVERSHOOT;
+    const real beyond = out > REAL(0.0) ? out : REAL(0.0);
+    const real loud = beyond * beyond * limit->loud - limit->drift;
+    const real most = SHARE * top;
+
+    d->above[k] = kept(d->above[k] + ((off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->below[k] = kept(d->below[k] + ((-off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->louder[k] = kept(d->louder[k] + (loud > most ? most : loud), top);
+    return d->above[k] > limit->height || d->below[k] > limit->height || d->louder[k] > top;
+}
+
+static bool sums_are_zero(const quarter_car_diagnosis *d, int k)
+{
+    const real sum = d->above[k] + d->below[k] + d->louder[k];
+
+    return !(sum > REAL(0.0));
+}
+
+static void forget_sums(quarter_car_diagnosis *d, int k)
+{
+    d->above[k] = REAL(0.0);
+    d->below[k] = REAL(0.0);
+    d->louder[k] = REAL(0.0);
+    d->streak[k] = 0u;
+}
+
+/* Residual k in one sample; whether it goes into alarm. */
+static bool watch(
+    quarter_car_diagnosis *d, const quarter_car_limit *limit, int k, real value, real bound, bool row)
+{
+    const real off = value - limit->mean;
+    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    bool high = false;
+
+    if (row) {
+        high = add_row(d, limit, k, off, out, bound);
+    }
+    if (d->state[k] == QUARTER_CAR_ALARM) {
+        d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
+            d->quiet = 0u;
+        }
+        return false;
+    }
+    d->state[k] = QUARTER_CAR_HEALTHY;
+    d->streak[k] = out > limit->level ? d->streak[k] + 1u : 0u;
+    if (d->streak[k] < d->least && !high) {
+        return false;
+    }
+    d->state[k] = QUARTER_CAR_ALARM;
+    d->since[k] = 0u;
+    return true;
+}
+
+/* What is left of a class of faults. */
+static quarter_car_candidate left_of(const quarter_car_diagnosis *d, const uint8_t *own)
+{
+    quarter_car_candidate found = QUARTER_CAR_LIKELY;
+    int k;
+
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        if (d->state[k] == QUARTER_CAR_ALARM && own[k] == 0u) {
+            return QUARTER_CAR_RULED_OUT;
+        }
+        if (d->state[k] == QUARTER_CAR_HEALTHY && own[k] == 3u) {
+            found = QUARTER_CAR_SMALL;
+        }
+    }
+    return found;
+}
+
+/* Which classes of faults the residuals leave, and the one if it is one. */
+static void judge(quarter_car_diagnosis *d)
+{
+    int likely = 0;
+    int c;
+
+    d->fault_class = QUARTER_CAR_UNKNOWN;
+    for (c = 0; c < QUARTER_CAR_CLASSES; ++c) {
+        const quarter_car_candidate left = left_of(d, signature[c]);
+
+        d->candidate[c] = (uint8_t)left;
+        if (left == QUARTER_CAR_LIKELY) {
+            d->fault_class = (int16_t)c;
+            ++likely;
+        }
+    }
+    if (likely != 1 || d->settled < 2u * d->row) {
+        d->fault_class = QUARTER_CAR_UNKNOWN;
+    }
+}
+
+quarter_car_limit quarter_car_limit_of(quarter_car_real level)
+{
+    quarter_car_limit limit;
+
+    limit.mean = REAL(0.0);
+    limit.level = level;
+    limit.unit = REAL(0.0);
+    limit.loud = REAL(0.0);
+    limit.drift = REAL(0.5);
+    limit.height = NEVER;
+    limit.bound = REAL(0.0);
+    return limit;
+}
+
+void quarter_car_clear(quarter_car_diagnosis *diagnosis)
+{
+    int k;
+
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        if (diagnosis->state[k] == QUARTER_CAR_ALARM) {
+            diagnosis->state[k] = QUARTER_CAR_HEALTHY;
+        }
+        diagnosis->since[k] = 0u;
+        forget_sums(diagnosis, k);
+    }
+    for (k = 0; k < QUARTER_CAR_CLASSES; ++k) {
+        diagnosis->candidate[k] = QUARTER_CAR_RULED_OUT;
+    }
+    diagnosis->fault_class = QUARTER_CAR_UNKNOWN;
+    diagnosis->quiet = 0u;
+    diagnosis->settled = 0u;
+}
+
+void quarter_car_diagnosis_reset(quarter_car_diagnosis *diagnosis)
+{
+    int k;
+
+    diagnosis->row = QUARTER_CAR_ROW;
+    diagnosis->least = 15u;
+    diagnosis->hold = 10u * QUARTER_CAR_ROW;
+    diagnosis->latch = false;
+    diagnosis->tick = 0u;
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        diagnosis->state[k] = QUARTER_CAR_BLIND;
+    }
+    quarter_car_clear(diagnosis);
+}
+
+bool quarter_car_diagnose(
+    quarter_car_diagnosis *diagnosis,
+    const quarter_car_limit *limits,
+    const quarter_car_real *bounds,
+    const quarter_car_residuals *residuals)
+{
+    quarter_car_diagnosis *d = diagnosis;
+    bool alarm = false;
+    bool fresh = false;
+    bool row;
+    int k;
+
+    d->tick += 1u;
+    row = d->tick >= d->row;
+    if (row) {
+        d->tick = 0u;
+    }
+    d->quiet += d->quiet < UINT32_MAX ? 1u : 0u;
+    d->settled += d->settled < UINT32_MAX ? 1u : 0u;
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        if (residuals->valid[k]) {
+            const real bound = bounds ? bounds[k] : limits[k].bound;
+
+            fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
+        } else {
+            forget_sums(d, k);
+            if (d->state[k] == QUARTER_CAR_ALARM) {
+                d->quiet = 0u; /* nobody knows that it is over */
+            } else {
+                d->state[k] = QUARTER_CAR_BLIND;
+            }
+        }
+        alarm = alarm || d->state[k] == QUARTER_CAR_ALARM;
+    }
+    if (fresh) {
+        d->quiet = 0u;
+        d->settled = 0u;
+    }
+    if (alarm && !d->latch && d->quiet >= d->hold) {
+        quarter_car_clear(d);
+        return false;
+    }
+    if (fresh || (alarm && row)) {
+        judge(d);
+    }
+    return alarm;
+}

@@ -1,0 +1,573 @@
+/* rc_loop.c: the residuals of RcLoop; generated, see the header. */
+#include "rc_loop.h"
+
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef rc_loop_real real;
+
+#define REAL(x) RC_LOOP_CONSTANT(x)
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* The larger of two numbers. */
+static real greatest(real left, real right)
+{
+    return right > left ? right : left;
+}
+
+/* The least bandwidth * sample_time at which a filter still moves. */
+#if defined RC_LOOP_FLOAT && !defined RC_LOOP_REAL
+#define SLOWEST REAL(0.0001)
+#else
+#define SLOWEST REAL(1.0e-09)
+#endif
+
+uint32_t rc_loop_abi(void)
+{
+    return RC_LOOP_ABI;
+}
+
+const char *rc_loop_digest(void)
+{
+    return RC_LOOP_DIGEST;
+}
+
+void rc_loop_nominal(rc_loop_parameters *parameters)
+{
+    parameters->R0 = REAL(1000.0);   /* Ohm */
+    parameters->Rab = REAL(2200.0);  /* Ohm */
+    parameters->Rbc = REAL(4700.0);  /* Ohm */
+    parameters->Rca = REAL(3300.0);  /* Ohm */
+    parameters->Ca = REAL(1.0e-06);  /* F */
+    parameters->Cc = REAL(4.7e-07);  /* F */
+}
+
+/* Whether configure may go on with what it is given. */
+static rc_loop_status checked(const rc_loop_parameters *p, real sample_time, real bandwidth)
+{
+    const bool finite = finite_number(p->R0 + p->Rab + p->Rbc + p->Rca + p->Ca + p->Cc);
+
+    if (!finite) {
+        return RC_LOOP_BAD_PARAMETER;
+    }
+    if (!(sample_time > REAL(0.0)) || !finite_number(sample_time)) {
+        return RC_LOOP_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return RC_LOOP_BAD_BANDWIDTH;
+    }
+    return RC_LOOP_OK;
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+const rc_loop_coefficients rc_loop_nominal_coefficients = {
+    REAL(1.6666666666666665),      /* r1_ua */
+    REAL(0.6666666666666666),      /* r1_uc */
+    -REAL(0.06400000000000006),    /* r1_w1_ua */
+    REAL(0.009400000000000007),    /* r1_w1_uc */
+    REAL(3.3333333333333396e-05),  /* bend1 */
+    REAL(0.9801980198019802),      /* a */
+    REAL(0.00990099009900991),     /* b */
+    REAL(3.090909090909091),       /* r2_ua */
+    REAL(0.04400000000000003),     /* r2_w1_ua */
+    REAL(0.04418000000000004),     /* r2_w1_uc */
+    {462u, 462u},                  /* samples until each is valid */
+    462u                           /* the longest of these */
+};
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(rc_loop_coefficients *c, const rc_loop_parameters *p,
+        real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* rc_loop.bg:14: Rab/Rca */
+    const real Rab_over_Rca = p->Rab / p->Rca;
+
+    /* Rab*Ca */
+    const real Rab_times_Ca = p->Rab * p->Ca;
+
+    /* R0*Ca */
+    const real R0_times_Ca = p->R0 * p->Ca;
+
+    /* r1: factor of ua: Rab/Rca + 1 */
+    c->r1_ua = Rab_over_Rca + REAL(1.0);
+
+    /* r1: factor of uc: Rab/Rca */
+    c->r1_uc = Rab_over_Rca;
+
+    /* r1: factor of ua' */
+    c->r1_w1_ua = (-Rab_times_Ca - R0_times_Ca) * w;
+
+    /* r1: factor of uc' */
+    c->r1_w1_uc = p->R0 * p->Cc * w;
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+
+    /* rc_loop.bg:18: r2: factor of ua: Rab/Rca + Rbc/Rca + 1 */
+    c->r2_ua = Rab_over_Rca + p->Rbc / p->Rca + REAL(1.0);
+
+    /* r2: factor of ua' */
+    c->r2_w1_ua = p->Rab * p->Ca * w;
+
+    /* r2: factor of uc' */
+    c->r2_w1_uc = p->Rbc * p->Cc * w;
+}
+
+static bool coefficients_are_finite(const rc_loop_coefficients *c)
+{
+    return finite_number(c->r1_ua + c->r1_uc + c->r1_w1_ua + c->r1_w1_uc + c->bend1 + c->a + c->b
+            + c->r2_ua + c->r2_w1_ua + c->r2_w1_uc);
+}
+
+rc_loop_status rc_loop_configure(
+    rc_loop_coefficients *coefficients,
+    const rc_loop_parameters *parameters,
+    rc_loop_real sample_time,
+    rc_loop_real bandwidth)
+{
+    rc_loop_coefficients *c = coefficients;
+    const rc_loop_status status = checked(parameters, sample_time, bandwidth);
+    int k;
+
+    for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+        c->settle[k] = UINT32_MAX;
+    }
+    c->longest = UINT32_MAX;
+    if (status != RC_LOOP_OK) {
+        return status;
+    }
+    compute_coefficients(c, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(c)) {
+        return RC_LOOP_BAD_COEFFICIENT;
+    }
+    c->settle[RC_LOOP_R1] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->settle[RC_LOOP_R2] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->longest = c->settle[RC_LOOP_R1];
+    return RC_LOOP_OK;
+}
+
+/* r1 on one sample.
+ * rc_loop.bg:14: r1 = U - ua - Rab*ba.f - R0*(ba.f + (Cc*D(uc) - ac.f))
+ * where ba.f = ac.f + Ca*D(ua)
+ * ac.f = (ua - uc)/Rca */
+static void run_r1(
+    const rc_loop_coefficients *c, rc_loop_memory *x, const rc_loop_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_s2 = REAL(0.0);
+        x->r1_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* terms of order 0 */
+    const real g0 = s->U + c->r1_uc * s->uc - c->r1_ua * s->ua;
+
+    /* degree 1 */
+    const real d1 = c->r1_w1_ua * s->ua - c->r1_w1_uc * s->uc;
+
+    /* error of order 0 */
+    const real e0 = c->bend1 * g0;
+
+    /* the filter multiplied out */
+    const real p1_1 = d1 + e0;
+
+    /* stage 2 */
+    const real u2 = g0 - p1_1;
+    const real y2 = x->r1_s2 + b * u2;
+    x->r1_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + p1_1 + e0;
+    const real y1 = x->r1_s1 + b * u1;
+    x->r1_s1 = a * y1 + b * u1;
+
+    r[RC_LOOP_R1] = y1 - e0;
+}
+
+/* r2 on one sample.
+ * rc_loop.bg:18: r2 = ua + Rab*(ac.f + Ca*D(ua)) - uc - Rbc*(Cc*D(uc) - ac.f)
+ * where ac.f = (ua - uc)/Rca */
+static void run_r2(
+    const rc_loop_coefficients *c, rc_loop_memory *x, const rc_loop_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_s2 = REAL(0.0);
+        x->r2_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* terms of order 0 */
+    const real g0 = c->r2_ua * s->ua - c->r2_ua * s->uc;
+
+    /* degree 1 */
+    const real d1 = c->r2_w1_ua * s->ua - c->r2_w1_uc * s->uc;
+
+    /* error of order 0 */
+    const real e0 = c->bend1 * g0;
+
+    /* the filter multiplied out */
+    const real p1_1 = d1 + e0;
+
+    /* stage 2 */
+    const real u2 = g0 - p1_1;
+    const real y2 = x->r2_s2 + b * u2;
+    x->r2_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + p1_1 + e0;
+    const real y1 = x->r2_s1 + b * u1;
+    x->r2_s1 = a * y1 + b * u1;
+
+    r[RC_LOOP_R2] = y1 - e0;
+}
+
+/* Adds the samples that were as usual to all ages. */
+static void bring_up_to_date(rc_loop_memory *x)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        const uint32_t left = UINT32_MAX - x->age[k];
+
+        x->age[k] += x->usual < left ? x->usual : left;
+    }
+    x->usual = 0u;
+}
+
+/* Ages and validity one by one: a number that is not finite makes the next sample the first. */
+static void count_samples(
+    const rc_loop_coefficients *c,
+    rc_loop_memory *x,
+    rc_loop_residuals *out)
+{
+    /* the residuals that are computed, and what each one goes with */
+    static const uint8_t number[] = {
+        0, 1
+    };
+    static const uint8_t part[] = {
+        0, 1
+    };
+    bool finite[2];
+    int k;
+
+    finite[0] = true;
+    finite[1] = true;
+    for (k = 0; k < 2; ++k) {
+        finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
+    }
+    bring_up_to_date(x);
+    x->youngest = UINT32_MAX;
+    for (k = 0; k < 2; ++k) {
+        x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
+        x->youngest = x->age[k] < x->youngest ? x->age[k] : x->youngest;
+    }
+    for (k = 0; k < 2; ++k) {
+        out->value[number[k]] = finite[part[k]] ? out->value[number[k]] : REAL(0.0);
+        out->valid[number[k]] = x->age[part[k]] > c->settle[number[k]];
+    }
+}
+
+void rc_loop_reset(rc_loop_memory *memory)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        memory->age[k] = 0u;
+    }
+    memory->youngest = 0u;
+    memory->usual = 0u;
+}
+
+void rc_loop_step(
+    const rc_loop_coefficients *coefficients,
+    rc_loop_memory *memory,
+    const rc_loop_samples *samples,
+    rc_loop_residuals *residuals)
+{
+    const rc_loop_coefficients *c = coefficients;
+    rc_loop_memory *x = memory;
+    const rc_loop_samples *s = samples;
+    real *r = residuals->value;
+    int k;
+
+    run_r1(c, x, s, r);
+    run_r2(c, x, s, r);
+    /* a sum is finite only if all its terms are */
+    if (x->youngest > c->longest && finite_number(r[RC_LOOP_R1] + r[RC_LOOP_R2])) {
+        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
+        for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+            residuals->valid[k] = true;
+        }
+    } else {
+        count_samples(c, x, residuals);
+    }
+}
+
+const char rc_loop_fault_name[RC_LOOP_FAULTS][4] = {
+    "R0", "U", "Rab", "Rca", "Ca", "Cc", "ua", "uc", "Rbc",
+};
+
+const uint16_t rc_loop_fault_class[RC_LOOP_FAULTS] = {
+    0u, 0u, 1u, 1u, 1u, 1u, 1u, 1u, 2u,
+};
+
+const char rc_loop_residual_name[RC_LOOP_RESIDUALS][3] = {
+    "r1", "r2",
+};
+
+/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
+static const uint8_t signature[RC_LOOP_CLASSES][RC_LOOP_RESIDUALS] = {
+    {3u, 0u},
+    {3u, 3u},
+    {0u, 3u},
+};
+
+#define NEVER REAL(1e30) /* a limit that nothing exceeds */
+#define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
+#define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
+#define SHARE REAL(0.3333333333333333) /* of the height, that a row adds at most */
+
+/* A sum, kept between zero and twice its height. */
+static real kept(real sum, real height)
+{
+    const real most = height + height;
+
+    return sum < REAL(0.0) ? REAL(0.0) : sum > most ? most : sum;
+}
+
+/* One row more of residual k; whether a sum is too high. off: from the mean, out: beyond bound. */
+static bool add_row(
+    rc_loop_diagnosis *d, const rc_loop_limit *limit, int k, real off, real out, real bound)
+{
+    const real top = limit->height + OVERSHOOT;
+    const real beyond = out > REAL(0.0) ? out : REAL(0.0);
+    const real loud = beyond * beyond * limit->loud - limit->drift;
+    const real most = SHARE * top;
+
+    d->above[k] = kept(d->above[k] + ((off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->below[k] = kept(d->below[k] + ((-off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->louder[k] = kept(d->louder[k] + (loud > most ? most : loud), top);
+    return d->above[k] > limit->height || d->below[k] > limit->height || d->louder[k] > top;
+}
+
+static bool sums_are_zero(const rc_loop_diagnosis *d, int k)
+{
+    const real sum = d->above[k] + d->below[k] + d->louder[k];
+
+    return !(sum > REAL(0.0));
+}
+
+static void forget_sums(rc_loop_diagnosis *d, int k)
+{
+    d->above[k] = REAL(0.0);
+    d->below[k] = REAL(0.0);
+    d->louder[k] = REAL(0.0);
+    d->streak[k] = 0u;
+}
+
+/* Residual k in one sample; whether it goes into alarm. */
+static bool watch(
+    rc_loop_diagnosis *d, const rc_loop_limit *limit, int k, real value, real bound, bool row)
+{
+    const real off = value - limit->mean;
+    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    bool high = false;
+
+    if (row) {
+        high = add_row(d, limit, k, off, out, bound);
+    }
+    if (d->state[k] == RC_LOOP_ALARM) {
+        d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
+            d->quiet = 0u;
+        }
+        return false;
+    }
+    d->state[k] = RC_LOOP_HEALTHY;
+    d->streak[k] = out > limit->level ? d->streak[k] + 1u : 0u;
+    if (d->streak[k] < d->least && !high) {
+        return false;
+    }
+    d->state[k] = RC_LOOP_ALARM;
+    d->since[k] = 0u;
+    return true;
+}
+
+/* What is left of a class of faults. */
+static rc_loop_candidate left_of(const rc_loop_diagnosis *d, const uint8_t *own)
+{
+    rc_loop_candidate found = RC_LOOP_LIKELY;
+    int k;
+
+    for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+        if (d->state[k] == RC_LOOP_ALARM && own[k] == 0u) {
+            return RC_LOOP_RULED_OUT;
+        }
+        if (d->state[k] == RC_LOOP_HEALTHY && own[k] == 3u) {
+            found = RC_LOOP_SMALL;
+        }
+    }
+    return found;
+}
+
+/* Which classes of faults the residuals leave, and the one if it is one. */
+static void judge(rc_loop_diagnosis *d)
+{
+    int likely = 0;
+    int c;
+
+    d->fault_class = RC_LOOP_UNKNOWN;
+    for (c = 0; c < RC_LOOP_CLASSES; ++c) {
+        const rc_loop_candidate left = left_of(d, signature[c]);
+
+        d->candidate[c] = (uint8_t)left;
+        if (left == RC_LOOP_LIKELY) {
+            d->fault_class = (int16_t)c;
+            ++likely;
+        }
+    }
+    if (likely != 1 || d->settled < 2u * d->row) {
+        d->fault_class = RC_LOOP_UNKNOWN;
+    }
+}
+
+rc_loop_limit rc_loop_limit_of(rc_loop_real level)
+{
+    rc_loop_limit limit;
+
+    limit.mean = REAL(0.0);
+    limit.level = level;
+    limit.unit = REAL(0.0);
+    limit.loud = REAL(0.0);
+    limit.drift = REAL(0.5);
+    limit.height = NEVER;
+    limit.bound = REAL(0.0);
+    return limit;
+}
+
+void rc_loop_clear(rc_loop_diagnosis *diagnosis)
+{
+    int k;
+
+    for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+        if (diagnosis->state[k] == RC_LOOP_ALARM) {
+            diagnosis->state[k] = RC_LOOP_HEALTHY;
+        }
+        diagnosis->since[k] = 0u;
+        forget_sums(diagnosis, k);
+    }
+    for (k = 0; k < RC_LOOP_CLASSES; ++k) {
+        diagnosis->candidate[k] = RC_LOOP_RULED_OUT;
+    }
+    diagnosis->fault_class = RC_LOOP_UNKNOWN;
+    diagnosis->quiet = 0u;
+    diagnosis->settled = 0u;
+}
+
+void rc_loop_diagnosis_reset(rc_loop_diagnosis *diagnosis)
+{
+    int k;
+
+    diagnosis->row = RC_LOOP_ROW;
+    diagnosis->least = 15u;
+    diagnosis->hold = 10u * RC_LOOP_ROW;
+    diagnosis->latch = false;
+    diagnosis->tick = 0u;
+    for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+        diagnosis->state[k] = RC_LOOP_BLIND;
+    }
+    rc_loop_clear(diagnosis);
+}
+
+bool rc_loop_diagnose(
+    rc_loop_diagnosis *diagnosis,
+    const rc_loop_limit *limits,
+    const rc_loop_real *bounds,
+    const rc_loop_residuals *residuals)
+{
+    rc_loop_diagnosis *d = diagnosis;
+    bool alarm = false;
+    bool fresh = false;
+    bool row;
+    int k;
+
+    d->tick += 1u;
+    row = d->tick >= d->row;
+    if (row) {
+        d->tick = 0u;
+    }
+    d->quiet += d->quiet < UINT32_MAX ? 1u : 0u;
+    d->settled += d->settled < UINT32_MAX ? 1u : 0u;
+    for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+        if (residuals->valid[k]) {
+            const real bound = bounds ? bounds[k] : limits[k].bound;
+
+            fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
+        } else {
+            forget_sums(d, k);
+            if (d->state[k] == RC_LOOP_ALARM) {
+                d->quiet = 0u; /* nobody knows that it is over */
+            } else {
+                d->state[k] = RC_LOOP_BLIND;
+            }
+        }
+        alarm = alarm || d->state[k] == RC_LOOP_ALARM;
+    }
+    if (fresh) {
+        d->quiet = 0u;
+        d->settled = 0u;
+    }
+    if (alarm && !d->latch && d->quiet >= d->hold) {
+        rc_loop_clear(d);
+        return false;
+    }
+    if (fresh || (alarm && row)) {
+        judge(d);
+    }
+    return alarm;
+}
