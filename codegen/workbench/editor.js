@@ -92,7 +92,7 @@ export class Editor {
           cm.EditorView.cspNonce.of(nonce),
           cm.lintGutter(), cm.lineNumbers(), cm.foldGutter(), folds, cm.highlightSpecialChars(), cm.history(), cm.drawSelection(), cm.dropCursor(),
           cm.EditorState.allowMultipleSelections.of(true), cm.EditorState.tabSize.of(4), cm.indentUnit.of("    "),
-          cm.indentOnInput(), cm.bracketMatching(), cm.closeBrackets(), cm.autocompletion(), cm.rectangularSelection(), cm.crosshairCursor(),
+          cm.indentOnInput(), cm.bracketMatching(), cm.closeBrackets(), cm.autocompletion({ selectOnOpen: false }), cm.rectangularSelection(), cm.crosshairCursor(),
           cm.highlightActiveLine(), cm.highlightActiveLineGutter(), cm.highlightSelectionMatches(),
           language(words), cm.syntaxHighlighting(highlight), lines,
           cm.keymap.of([{ key: "F8", run: cm.nextDiagnostic, shift: cm.previousDiagnostic }, ...cm.closeBracketsKeymap, ...cm.defaultKeymap, ...cm.searchKeymap, ...cm.historyKeymap, ...cm.foldKeymap, ...cm.completionKeymap, cm.indentWithTab]),
