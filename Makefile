@@ -120,7 +120,7 @@ account: $(VENV)/dev.stamp ## an hour at 1 kHz with a disturbance every minute: 
 	$(BIN)/python -m tests.account $(if $(SEED),--seed $(SEED))
 
 vendored: ## what the workbench uses of npm, built anew: the same versions give the same bytes
-	cd vendor && npm ci && node build.mjs
+	cd editors/workbench && npm ci && node build.mjs
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

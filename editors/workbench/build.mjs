@@ -1,9 +1,9 @@
-// Makes ../codegen/workbench/vendored.{js,css} and the licenses of all that is in them.
+// Makes ../../codegen/workbench/vendored.{js,css} and the licenses of all that is in them.
 import { build } from "esbuild";
 import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 
-const to = (name) => new URL(`../codegen/workbench/${name}`, import.meta.url).pathname;
+const to = (name) => new URL(`../../codegen/workbench/${name}`, import.meta.url).pathname;
 const made = await build({
   entryPoints: ["entry.js"],
   bundle: true,
