@@ -74,8 +74,10 @@ def arguments(parser: ArgumentParser) -> None:
         dest="extras",
         metavar="WHAT",
         type=_extras,
-        default=(),
-        help="write more: tests, exact, example, separated by commas, each in a folder of its own",
+        action="extend",
+        default=[],
+        help="write more: tests, exact, example, separated by commas, each in a folder of its own;"
+        " may be repeated",
     )
     parser.add_argument(
         "--libm",
@@ -175,7 +177,7 @@ def _opened(args: Namespace) -> Compilation:
         args.bandwidth = None
     args.rate = args.rate or (Options().rate if tuning is None else tuning.rate)
     compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
-    compilation = compilation.with_options(extras=args.extras, libm=args.libm)
+    compilation = compilation.with_options(extras=tuple(dict.fromkeys(args.extras)), libm=args.libm)
     if tuning is None:
         return compilation
     try:

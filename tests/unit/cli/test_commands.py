@@ -127,6 +127,11 @@ def test_a_folder_that_cannot_be_written_is_told(bondgraph: Command, tmp_path: P
     assert done.status == 1 and "file" in done.err and "bug" not in done.err
 
 
+def test_what_is_wanted_besides_the_code_adds_up(bondgraph: Command, tmp_path: Path) -> None:
+    bondgraph("compile", MOTOR, "-o", tmp_path, "--with", "tests", "--with", "exact,tests")
+    assert {p.name for p in tmp_path.iterdir() if p.is_dir()} == {"tests", "exact"}
+
+
 def test_unknown_target_is_wrong_usage(bondgraph: Command, tmp_path: Path) -> None:
     done = bondgraph("compile", MOTOR, "--target", "cobol", "-o", tmp_path / "out")
     assert done.status == 2 and "cobol" in done.err and "python" in done.err
