@@ -54,8 +54,8 @@ class Value:
 
     def __pow__(self, exponent: int) -> Value:
         result = self.number**exponent
-        wide = abs(exponent) * self.size / abs(float(self)) if exponent else 1.0
-        return Value(result, abs(float(result)) * max(1.0, wide))
+        slope = abs(exponent) * abs(float(self)) ** (exponent - 1) if exponent else 0.0
+        return Value(result, max(abs(float(result)), slope * self.size))
 
     def __lt__(self, other: Value) -> bool:
         return self.number < other.number

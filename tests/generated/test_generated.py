@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from functools import cache
 from pathlib import Path
@@ -69,6 +70,8 @@ def test_compiles_and_passes_its_own_test(model: str, tmp_path: Path) -> None:
     stem = _everything(model, tmp_path)
     if not stem:
         return
+    vectors = (tmp_path / "tests" / "golden.h").read_text()
+    assert not re.search(r"GOLDEN_\w+ = 0\b", vectors), "a test of nothing"
     assert python_self_test(tmp_path).endswith("PASS\n")
     assert "alarms" in run(sys.executable, "example/example.py", cwd=tmp_path)
     real = f"-D{stem.upper()}_FLOAT"

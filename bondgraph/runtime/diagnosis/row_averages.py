@@ -49,7 +49,7 @@ def lasting(values: Array, owed: float, centred: bool, kappa: float) -> Lasting:
     '1.1'
     >>> stepped = lasting(np.diff(draw), 0.0, True, 4.0)
     >>> f"{stepped.unit / (1.0 + stepped.weights.sum()):.1f}"
-    '0.2'
+    '0.4'
     """
     known = within(values[:, None])[:, 0]
     count = int(known.sum())

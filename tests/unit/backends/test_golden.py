@@ -38,6 +38,17 @@ def _coefficients(cells: int) -> list[module.Value]:
     return [run.values[Ref("coef", "y_polynomial", k)] for k in range(cells + 1)]
 
 
+@pytest.mark.parametrize(("number", "power", "wanted"), [
+    (0.0, 1, (0.0, 0.5)), (0.0, 3, (0.0, 0.0)), (2.0, 3, (8.0, 12.0)), (4.0, -1, (0.25, 0.25)),
+])  # fmt: skip
+def test_a_power_is_as_large_as_what_its_base_was_added_up_from_makes_it(
+    number: float, power: int, wanted: tuple[float, float]
+) -> None:
+    size = 0.5 if number == 0.0 else 1.0
+    found = module.Value(Decimal(number), size) ** power
+    assert (float(found), found.size) == wanted  # |n x^(n-1)| size, the number itself at least
+
+
 @pytest.mark.parametrize("many", [10**9, 0], ids=["40 digits", "double"])
 def test_a_tape_is_the_polynomial_of_the_chain(many: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "_MANY", many)

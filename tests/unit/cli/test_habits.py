@@ -44,7 +44,7 @@ def test_new_makes_a_model_whose_commands_all_work(
         said += done.out
     assert bondgraph("format", "--check", "pump_2.bg").status == 0
     assert "L, R or U since 6.0" in said and "R (100 %, +0.6" in said  # 30 % of 2 Ohm
-    assert Path("generated/pump_2/pump2_residuals.c").exists()
+    assert Path("generated/pump_2/pump2.c").exists()
 
 
 def test_new_never_writes_over_a_file(bondgraph: Command, tmp_path: Path) -> None:
@@ -69,7 +69,7 @@ def test_a_dry_run_says_what_would_change_and_writes_nothing(
     shutil.copy(MOTOR, model)
     words = ("compile", model, "-o", out)
     done = bondgraph(*words, "--dry-run")
-    assert done.status == 0 and f"new        {out}/motor_residuals.c\n" in done.out
+    assert done.status == 0 and f"new        {out}/motor.c\n" in done.out
     assert not out.exists()
     assert bondgraph(*words).status == 0
     files = sorted(path for path in out.rglob("*") if path.is_file())
@@ -78,13 +78,13 @@ def test_a_dry_run_says_what_would_change_and_writes_nothing(
     model.write_text(model.read_text().replace("17.6 Ohm", "18 Ohm"))
     found = json.loads(bondgraph(*words, "--dry-run", "--json").out)
     changed = {Path(c["path"]).name for c in found["changes"] if c["change"] == "changed"}
-    assert "motor_residuals.c" in changed and found["files"] == []
+    assert "motor.c" in changed and found["files"] == []
     found = bondgraph(*words, "--target", "python", "--dry-run").out
-    assert f"removed    {out}/motor_residuals.c\n" in found
+    assert f"removed    {out}/motor.c\n" in found
     assert before == {path: path.read_bytes() for path in files}
-    (out / "motor_residuals.c").write_text("mine")
+    (out / "motor.c").write_text("mine")
     done = bondgraph(*words, "--dry-run")
-    assert done.status == 1 and f"in the way {out}/motor_residuals.c\n" in done.out
+    assert done.status == 1 and f"in the way {out}/motor.c\n" in done.out
     assert bondgraph(*words).status == 1  # as it was told
 
 

@@ -58,7 +58,7 @@ def test_what_a_model_says_in_error(place: Path, capsys: pytest.CaptureFixture[s
 
 def test_files_that_are_made_of_a_model(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for words in (
-        ["compile", "m.bg", "-o", "out"],
+        ["compile", "m.bg", "--with", "tests,exact,example", "-o", "out"],
         ["report", "m.bg", "--scenario", "s.toml", "-o", "r.html"],
         ["draw", "m.bg", "-o", "m.svg"],
         ["simulate", "m.bg", "s.toml", "-o", "run.csv"],
