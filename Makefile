@@ -119,7 +119,7 @@ kills: $(VENV)/dev.stamp ## monitors of every source, each killed 200 times at r
 account: $(VENV)/dev.stamp ## an hour at 1 kHz with a disturbance every minute: the account adds up; some minutes
 	$(BIN)/python -m tests.account $(if $(SEED),--seed $(SEED))
 
-vendored: ## what the workbench uses of npm, built anew: the same versions give the same bytes
+vendored: ## what the workbench and the live page use of npm, built anew: the same versions give the same bytes
 	cd editors/workbench && npm ci && node build.mjs
 
 clean: ## remove what this file made

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from bondgraph.backends.drawing.style import KINDS, colours, inside
-from bondgraph.backends.templates import codegen, fill
+from bondgraph.backends.page_parts import chart_style, part, scripts
+from bondgraph.backends.templates import fill
 from bondgraph.frontend.words import KEYWORDS, RESERVED
 from bondgraph.library.elements import KINDS as ELEMENTS
 from bondgraph.text.printable import printable
 
 _SCRIPTS = (
     "main.js", "editor.js", "language.js", "picture.js", "residuals.js", "signatures.js",
-    "trial.js", "curves.js", "panes.js", "dom.js", "vendored.js",
+    "trial.js", "curves.js", "panes.js", "vendored.js",
 )  # fmt: skip
 _LIGHT = (
     "--mark:#ffe9a8;--band:#e8eef4;--trace:#8f8f8f;--ground:#f4f2ee;--raised:#ffffff;"
@@ -25,12 +26,11 @@ _DARK = (
 def workbench(title: str, nonce: str) -> dict[str, tuple[str, str]]:
     """Each file as (type, text). Styles that the editor makes have the nonce."""
     html = fill("workbench/page.html.j2", {"title": title, "nonce": nonce}, html=True)
-    scripts = {f"/{name}": ("text/javascript", _text(name)) for name in _SCRIPTS}
     return {
         "/": ("text/html", printable(html)),
         "/workbench.css": ("text/css", _style()),
-        "/vendored.LICENSES.txt": ("text/plain", _text("vendored.LICENSES.txt")),
-        **scripts,
+        "/vendored.LICENSES.txt": ("text/plain", part("workbench/vendored.LICENSES.txt")),
+        **scripts("workbench", _SCRIPTS),
     }
 
 
@@ -51,10 +51,6 @@ def _style() -> str:
         f"@media (prefers-color-scheme:dark){{:root:not([data-theme=light]){{color-scheme:dark;"
         f"{dark}}}}}\n:root[data-theme=dark]{{color-scheme:dark;{dark}}}"
     )
-    report = [_text(f"{name}.css", "report") for name in ("formulas", "tables")]
-    own = [_text("vendored.css"), *report, inside(".bondgraph"), _text("workbench.css")]
+    report = [part(f"report/{name}.css") for name in ("formulas", "tables")]
+    own = [chart_style(), *report, inside(".bondgraph"), part("workbench/workbench.css")]
     return "\n".join([themes, *own])
-
-
-def _text(name: str, folder: str = "workbench") -> str:
-    return (codegen() / folder / name).read_text(encoding="utf-8")

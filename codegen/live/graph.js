@@ -1,7 +1,8 @@
 // The bond graph with the elements that are suspected: framed, coloured, and with their probability.
+import { percent } from "./dom.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 const apart = (a, b) => a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y;
-const percent = (p) => (p > 0.995 && p < 1 ? "> 99 %" : p < 0.01 ? "< 1 %" : `${Math.round(100 * p)} %`);
 
 export class Graph {
   constructor(svg, words) {
@@ -71,5 +72,3 @@ export class Graph {
     text.setAttribute("y", spots[0][1]);
   }
 }
-
-export { percent };

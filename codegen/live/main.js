@@ -1,13 +1,20 @@
 // The page: what the server says, and what people press.
+import { Choice } from "./choice.js";
+import { csv, saved } from "./csv.js";
+import { $, make, number } from "./dom.js";
 import { Graph } from "./graph.js";
 import { Plane } from "./plane.js";
-import { Plot, Residual } from "./strips.js";
-import { Diagnosis, amount } from "./said.js";
+import { Record } from "./record.js";
+import { Diagnosis } from "./said.js";
+import { Residual, Sensor } from "./strips.js";
+import { View } from "./view.js";
 
-const $ = (id) => document.getElementById(id);
 const names = ["desired", "virtual", "real"];
 let hello = null, socket = null, tries = 0, frozen = false, chosen = false;
-let strips = [], plots = [], plane = null, newest = null, due = false;
+let strips = [], sensors = [], plane = null, record = new Record([]), newest = null, due = false;
+const NOTHING = { residual: [null, null, null, false], sensor: [null, null, null] };
+const view = new View(() => later());
+const choice = new Choice(() => later());
 const graph = new Graph(document.querySelector(".bondgraph"), $("suspects"));
 const diagnosis = new Diagnosis($, (whose) => { if (!chosen) show(whose); else suspects(); });
 
@@ -26,46 +33,73 @@ function show(one) {
 // ---------------------------------------------------------------- what the server says
 
 function begin(message) {
+  const again = hello && same(hello, message);
   hello = message;
   graph.links = hello.links;
   $("real-name").textContent = `real: ${hello.monitored}` + (hello.lacking.real ? `, place unknown: ${hello.lacking.real}` : "");
   $("desired-name").textContent = "desired" + (hello.lacking.desired ? `: ${hello.lacking.desired}` : "");
   $("desired-name").closest("li").hidden = !hello.plane.length && !hello.wanted;
   $("pause").textContent = hello.pace ? "Pause" : "Freeze";
-  const flat = hello.plane.length > 0;
-  $("plane").hidden = !flat;
-  $("plots").hidden = flat;
-  $("where-title").textContent = flat ? "In the plane" : "Sensors";
-  plane = flat ? new Plane(document.querySelector("#plane svg"), hello.plane.length > 2) : null;
-  $("strips").replaceChildren();
-  $("plots").replaceChildren();
-  strips = hello.residuals.map(([name, unit]) => new Residual($("strips"), name, unit, whose()));
-  plots = flat ? [] : hello.sensors.map(([name, unit]) => new Plot($("plots"), name, unit));
+  if (!again) build();
   choices();
-  restart();
+  const missed = goesOn(message.frames);
+  restart(missed === null);
   $("active").textContent = "none is injected";
   for (const one of names) if (plane) plane.paths[one] = message.paths[one].slice();
-  message.frames.forEach((f) => frame(f, false));
+  (missed ?? message.frames).forEach((f) => frame(f, false));
   message.verdicts.forEach(heard.verdict);
   heard.faults({ active: message.active });
   if (message.state.state) heard.state(message.state);
 }
 
-function restart() {
-  strips.forEach((s) => s.clear());
-  plots.forEach((p) => p.clear());
+const same = (one, other) => ["residuals", "sensors", "plane", "wanted"].every((what) => JSON.stringify(one[what]) === JSON.stringify(other[what]));
+
+// Of the past that the server tells, what this page has not heard; null if it is another one.
+function goesOn(frames) {
+  const k = newest ? frames.findIndex((f) => f.n === newest.n && f.t === newest.t) : -1;
+  return k < 0 ? null : frames.slice(k + 1);
+}
+
+// What is there of this machine: a strip for each residual and each sensor.
+function build() {
+  const flat = hello.plane.length > 0, more = 8 * hello.residuals.length;
+  $("plane").hidden = !flat;
+  for (const one of ["plots", "beside"]) $(one).hidden = true;
+  $("where-title").textContent = flat ? "In the plane" : "Sensors";
+  plane = flat ? new Plane(document.querySelector("#plane svg"), hello.plane.length > 2) : null;
+  [...strips, ...sensors].forEach((s) => s.end());
+  newest = null;
+  record = new Record([
+    ...hello.residuals.flatMap(() => ["least", "most", "most", "most", "least", "most", "most", "most"]),
+    ...hello.sensors.flatMap(() => ["swing", "swing", "swing"]),
+  ]);
+  const into = $(flat ? "beside" : "plots"), lacking = hello.wanted ? [] : ["desired"];
+  $(flat ? "strips" : "plots").before($("times"));
+  strips = hello.residuals.map(([name, unit], k) => new Residual($("strips"), name, unit, record, 8 * k, view, whose()));
+  sensors = hello.sensors.map(([name, unit], k) => new Sensor(into, name, unit, record, more + 3 * k, view, lacking));
+  choice.offer([["Residuals", strips, true], ["Sensors", sensors, !flat]]);
+}
+
+function restart(forget = true) {
+  if (forget) {
+    record.clear();
+    newest = null;
+    view.follow();
+    $("time").textContent = "0.00";
+  }
+  [...strips, ...sensors].forEach((s) => { s.stale = true; });
   if (plane) plane.clear();
   diagnosis.clear();
-  newest = null;
   suspects();
-  $("time").textContent = "0.00";
   later();
 }
 
 function frame(f, walk = true) {
   newest = f;
-  strips.forEach((s, k) => ["real", "virtual"].forEach((one) => f[one].r && s.add(one, f.t, f[one].r[k])));
-  plots.forEach((p, k) => f.s && p.add(f.t, f.s[k]));
+  record.add(f.t, [
+    ...strips.flatMap((_, k) => ["real", "virtual"].flatMap((one) => f[one].r?.[k] ?? NOTHING.residual)),
+    ...sensors.flatMap((_, k) => f.s?.[k] ?? NOTHING.sensor),
+  ]);
   if (plane) names.forEach((one) => plane.move(one, f[one].p, walk));
   diagnosis.warm(f);
   later();
@@ -74,7 +108,7 @@ function frame(f, walk = true) {
 const heard = {
   hello: begin,
   frame: (f) => { if (!frozen && hello) frame(f); },
-  reset: restart,
+  reset: () => restart(),
   verdict: (v) => { diagnosis.add(v); later(); },
   refused: (m) => notice(m.message),
   faults: (m) => {
@@ -87,6 +121,7 @@ const heard = {
     $("connection").textContent = words[m.state] || m.state;
     $("pace").textContent = m.state === "slow" ? m.text : m.pace ? `× ${m.pace}` : "";
     if (m.state !== "paused" && m.state !== "slow") notice(m.state === "running" || m.state === "waiting" ? "" : m.text);
+    if (m.state === "ended") diagnosis.courses.ended();
     if (hello && hello.pace) pressed(m.state === "paused");
   },
 };
@@ -97,7 +132,8 @@ function later() {
   requestAnimationFrame(() => {
     due = false;
     if (newest) $("time").textContent = newest.t.toFixed(2);
-    [...strips, ...plots].forEach((s) => s.draw());
+    const seen = view.window(record);
+    [...strips, ...sensors].forEach((s) => s.draw(seen));
     if (plane) plane.draw();
   });
 }
@@ -126,13 +162,7 @@ function pressed(on) {
 }
 
 function choices() {
-  $("scenario-faults").replaceChildren(...hello.faults.map((label, k) => {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = `Inject: ${label}`;
-    button.onclick = () => send({ do: "inject", fault: k });
-    return button;
-  }));
+  $("scenario-faults").replaceChildren(...hello.faults.map((label, k) => make("button", { type: "button", onclick: () => send({ do: "inject", fault: k }) }, `Inject: ${label}`)));
   $("target").replaceChildren(...hello.targets.map((t) => new Option(t.name, t.name)));
   kinds();
 }
@@ -149,7 +179,7 @@ function kinds() {
   const change = $("change").value;
   $("size-label").hidden = change === "stuck" || change === "missing";
   $("unit").textContent = change === "+=" && target.unit !== "1" ? target.unit : "";
-  $("target").title = target.value === null ? "" : `${target.name} = ${amount(target.value)} ${target.unit}`;
+  $("target").title = target.value === null ? "" : `${target.name} = ${number(target.value, 3)} ${target.unit}`;
 }
 
 $("target").onchange = kinds;
@@ -167,6 +197,10 @@ $("pause").onclick = () => {
   else { frozen = on; pressed(on); }
 };
 document.querySelectorAll("input[name=whose]").forEach((i) => { i.onchange = () => { chosen = true; show(whose()); }; });
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", later);
+$("export").onclick = () => saved(`${document.title}.csv`, csv(record, view.window(record), [...strips, ...sensors].filter((s) => s.chosen).flatMap((s) => s.table())));
+document.querySelectorAll(".strips").forEach((group) => {
+  group.onkeydown = (event) => { const on = [...strips, ...sensors].find((s) => s.chosen && s.near && group.contains(s.box)); if (on) view.key(event, on.plot); };
+});
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { [...strips, ...sensors].forEach((s) => { s.stale = true; }); later(); });
 addEventListener("resize", later);
 connect();

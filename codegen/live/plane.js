@@ -1,4 +1,6 @@
 // Machines in the plane: paths, bodies with their heading, names that keep clear of each other.
+import { nice } from "./charts.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 const ALL = ["desired", "real", "virtual"]; // the last is drawn on top
 const MOST = 2400; // points of a path
@@ -9,7 +11,6 @@ const make = (into, kind, attributes = {}) => {
   into.append(made);
   return made;
 };
-const nice = (x) => { const p = 10 ** Math.floor(Math.log10(x)); return [1, 2, 5].map((m) => m * p).findLast((s) => s <= x); };
 const metres = (x) => (x >= 1 ? `${Number(x.toPrecision(2))} m` : x >= 0.01 ? `${Number((x * 100).toPrecision(2))} cm` : `${Number((x * 1000).toPrecision(2))} mm`);
 
 export class Plane {

@@ -1,26 +1,19 @@
 // What the watches of the real and of the virtual machine say, in words.
-import { percent } from "./graph.js";
-
-const KEPT = 300;
-const element = (kind, className, text) => {
-  const made = document.createElement(kind);
-  if (className) made.className = className;
-  if (text !== undefined) made.textContent = text;
-  return made;
-};
-export const amount = (x) => String(Number(x.toPrecision(3))).replace("-", "−");
+import { make, percent } from "./dom.js";
+import { Courses, sized } from "./courses.js";
 
 export class Diagnosis {
   constructor($, changed) {
     this.$ = $;
     this.changed = changed;
+    this.courses = new Courses();
     this.clear();
   }
 
   clear() {
     this.found = { real: new Map(), virtual: new Map() };
     this.state = { real: "", virtual: "" };
-    this.$("verdicts").replaceChildren();
+    this.courses.clear();
     for (const one of ["real", "virtual"]) this.now(one, "wait", "waiting for samples");
   }
 
@@ -36,10 +29,11 @@ export class Diagnosis {
   }
 
   add(v) {
-    const line = element("li", v.event);
-    line.append(element("span", "at", `${v.time === null ? "" : v.time.toFixed(2)} s`), element("span", "whose", v.whose), element("span", "event", v.event), element("span", "text", v.message));
-    this.$("verdicts").prepend(line);
-    while (this.$("verdicts").children.length > KEPT) this.$("verdicts").lastChild.remove();
+    this.courses.add(v, this.finding(v));
+  }
+
+  // What this says of a machine now; a fault in a few words.
+  finding(v) {
     if (v.event === "fault" || v.event === "update" || (v.event === "resumed" && v.candidates.length)) {
       const since = v.since === null ? "" : ` since ${v.since.toFixed(2)} s`;
       const [first] = v.candidates, many = v.message.includes("more than one fault") || v.message.startsWith("no single fault");
@@ -48,7 +42,9 @@ export class Diagnosis {
       this.found[v.whose] = new Map(shown.map((c) => [c[0], c[3]]));
       this.now(v.whose, "fault", sure, shown);
       this.changed(v.whose);
-    } else if (v.event === "cleared") {
+      return which;
+    }
+    if (v.event === "cleared") {
       this.found[v.whose] = new Map();
       this.now(v.whose, "well", "no fault any more");
       this.changed(v.whose);
@@ -56,6 +52,7 @@ export class Diagnosis {
     else if (v.event === "invalid" && v.message.includes("stands still")) this.now(v.whose, "still", v.message);
     else if (/(is|are) blind\b/.test(v.message) && this.state[v.whose] !== "fault") this.now(v.whose, "still", v.message);
     else if (v.message.startsWith("samples come again") && this.state[v.whose] === "still") this.now(v.whose, "well", "no fault seen");
+    return "";
   }
 
   now(whose, state, text, candidates = []) {
@@ -63,16 +60,11 @@ export class Diagnosis {
     if (this.state[whose] === state && box.querySelector(".finding").textContent === text && !candidates.length) return;
     this.state[whose] = box.dataset.state = state;
     box.querySelector(".finding").textContent = text;
-    box.querySelector(".candidates").replaceChildren(...candidates.slice(0, 6).map(([fault, size, unit, chance]) => {
-      const line = element("li");
-      const name = element("span", "name", fault);
-      if (size !== null) name.append(" ", element("small", "", `${size > 0 ? "+" : ""}${amount(size)}${unit && unit !== "1" ? ` ${unit}` : ""}`));
-      const share = element("span", "share"), part = element("i");
+    box.querySelector(".candidates").replaceChildren(...candidates.slice(0, 6).map((candidate) => {
+      const [fault, size] = sized(candidate), chance = candidate[3], part = make("i");
       part.style.width = `${100 * chance}%`;
-      share.append(part);
-      share.setAttribute("aria-hidden", "true");
-      line.append(name, share, element("span", "amount", percent(chance)));
-      return line;
-    }), ...(candidates.length > 6 ? [element("li", "", `and ${candidates.length - 6} more`)] : []));
+      return make("li", {}, make("span", { class: "name" }, fault, size ? make("small", {}, ` ${size}`) : null),
+        make("span", { class: "share", "aria-hidden": "true" }, part), make("span", { class: "amount" }, percent(chance)));
+    }), ...(candidates.length > 6 ? [make("li", {}, `and ${candidates.length - 6} more`)] : []));
   }
 }

@@ -1,151 +1,180 @@
-// Signals that scroll: a residual in the band between its thresholds, or a sensor of three machines.
-const LONG = 20; // s
-const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-const short = (x) => (x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(1) : String(Number(x.toPrecision(3)))).replace("e+", "e").replace("-", "−");
+// Signals over time: a residual in the band between its thresholds, or a sensor of three machines.
+import { BAND, EDGE, KEY, chart, ink, line, named, roomy, swatch, withUnit } from "./charts.js";
+import { make, number } from "./dom.js";
+
+const HIGH = 132; // px
+const MACHINES = [["real", "trace", [], 3.4], ["virtual", "inertia", [7, 5], 1.8], ["desired", "resistor", [2, 3], 1.8]];
+const write = (element, text) => { if (element.textContent !== text) element.textContent = text; };
 
 class Strip {
-  constructor(into, parts) {
-    this.box = document.createElement("div");
-    this.box.className = "strip";
-    const head = document.createElement("p");
-    for (const [kind, text] of parts) {
-      const part = document.createElement(kind === "name" ? "b" : "span");
-      part.className = kind;
-      part.textContent = text;
-      head.append(part);
-      this[kind] = part;
-    }
-    this.canvas = document.createElement("canvas");
-    this.canvas.setAttribute("role", "img");
-    this.box.append(head, this.canvas);
+  constructor(into, name, unit, record, view) {
+    Object.assign(this, { name, unit, record, view, near: true, chosen: true, stale: true, drawn: [0, 0] });
+    this.head = make("p", {}, make("b", { class: "name" }, name));
+    this.values = make("p");
+    this.place = make("div", { class: "chart" });
+    this.box = make("div", { class: "strip" }, this.head, this.values, this.place);
     into.append(this.box);
-    this.size = 0;
+    this.sight = new IntersectionObserver((seen) => { this.near = seen.at(-1).isIntersecting; if (this.near) this.view.changed(); });
+    this.sight.observe(this.box);
+    this.width = new ResizeObserver(() => this.sized());
+    this.width.observe(this.place);
   }
 
-  // The canvas in pixels of the screen, and where a time and a value are on it.
-  paper(end, least, most) {
-    const { clientWidth: w, clientHeight: h } = this.canvas, dense = devicePixelRatio || 1;
-    if (this.canvas.width !== Math.round(w * dense) || this.canvas.height !== Math.round(h * dense)) {
-      this.canvas.width = Math.round(w * dense);
-      this.canvas.height = Math.round(h * dense);
-    }
-    const pen = this.canvas.getContext("2d");
-    pen.setTransform(dense, 0, 0, dense, 0, 0);
-    pen.clearRect(0, 0, w, h);
-    pen.lineJoin = "round";
-    const x = (t) => w - ((end - t) / LONG) * w;
-    const y = (v) => h - 4 - ((v - least) / (most - least || 1)) * (h - 8);
-    return { pen, x, y, w, h };
+  begin(series, options, hooks = {}) {
+    const { view } = this, cursor = {
+      // All charts show the same time, so the cursor is at the same place; that one zooms which is dragged over.
+      sync: { key: KEY, scales: [null, null], filters: { pub: (type) => type !== "mousedown" && type !== "mouseup" } },
+      drag: { x: true, y: false, setScale: false },
+      bind: {
+        dblclick: () => () => view.follow(),
+        mousedown: (_, over, does) => (event) => { if (event.button === 0 && event.target === over) { view.held = true; does(event); } },
+      },
+    };
+    const zoom = (plot) => {
+      const { left, width } = plot.select;
+      if (width > 2) view.zoom(plot.posToVal(left, "x"), plot.posToVal(left + width, "x"));
+      if (width) plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    };
+    const tell = () => this.tell();
+    this.plot = chart(this.place, {
+      width: this.place.clientWidth || 300, height: HIGH, unit: this.unit, series, cursor, ...options,
+      hooks: { ...hooks, setSelect: [zoom], setCursor: [tell], draw: [tell] },
+    }, series.map(() => []));
+    this.plot.root.setAttribute("role", "img");
+  }
+
+  end() {
+    this.sight.disconnect();
+    this.width.disconnect();
+    this.plot?.destroy();
+    this.box.remove();
+  }
+
+  sized() {
+    const width = this.place.clientWidth;
+    if (this.plot && width && width !== this.plot.width) this.plot.setSize({ width, height: HIGH });
+  }
+
+  choose(on) {
+    this.chosen = on;
+    this.box.hidden = !on;
+    this.stale = true;
+  }
+
+  // A picture that would differ by less than half a pixel is not drawn.
+  draw([from, to]) {
+    if (!this.chosen || !this.near) return;
+    const pixel = (to - from) / this.plot.width, moved = Math.max(Math.abs(from - this.drawn[0]), Math.abs(to - this.drawn[1]));
+    const end = Math.min(to, this.record.last);
+    if (!this.stale && moved < pixel / 2 && Math.abs(end - this.until) < pixel / 2) { this.tell(); return; }
+    Object.assign(this, { stale: false, drawn: [from, to], until: end });
+    this.plot.batch(() => {
+      this.plot.setData(this.rows(this.record.picture([from, to], this.places, this.plot.width / 2)), false);
+      this.plot.setScale("x", { min: from, max: to });
+    });
+  }
+
+  // Which point of the picture is under the cursor; null: none is.
+  get pointed() {
+    const { plot, view } = this, left = plot.cursor.left ?? -1, on = left >= 0 && plot.data[0].length > 0;
+    const k = on ? plot.posToIdx(left) : null;
+    if (this.near && this.chosen) view.cursor(on ? plot.data[0][k] : null);
+    return k;
   }
 }
-
-const recent = (points) => { while (points.length > 2 && points[1][0] < points.at(-1)[0] - LONG) points.shift(); };
 
 export class Residual extends Strip {
-  constructor(into, name, unit, whose) {
-    super(into, [["name", name], ["limit", ""], ["ratio", ""], ["mark", "▲ fired"]]);
-    this.title = name;
-    this.unit = unit === "1" ? "" : unit;
+  constructor(into, name, unit, record, first, view, whose) {
+    super(into, name, unit, record, view);
+    this.first = first;
+    this.size = 1;
     this.whose = whose;
-    this.clear();
+    for (const kind of ["limit", "mark", "value", "ratio"]) this[kind] = make("span", { class: kind }, kind === "mark" ? "▲ fired" : "");
+    this.head.append(this.limit, this.mark);
+    this.values.append(this.value, this.ratio);
+    const out = line("clash", 1.5), inside = line("ink", 1);
+    this.begin([{}, EDGE, EDGE, inside, inside, out, out], {
+      bands: [BAND, { series: [4, 3], fill: () => ink("ink") }, { series: [6, 5], fill: () => ink("clash") }],
+      scales: { y: { range: () => [-this.size, this.size] } },
+    }, { drawAxes: [(plot) => this.zero(plot)] });
   }
 
-  clear() { this.points = { real: [], virtual: [] }; }
-
-  turn(whose) { this.whose = whose; }
-
-  add(whose, t, [low, high, limit, out]) {
-    const points = this.points[whose];
-    points.push([t, low, high, limit, out]);
-    recent(points);
+  turn(whose) {
+    this.whose = whose;
+    this.stale = true;
   }
 
-  draw() {
-    const points = this.points[this.whose], last = points.at(-1);
+  // Where the least and the largest value, the threshold, and whether it is outside are.
+  get places() { const k = this.first + (this.whose === "virtual" ? 4 : 0); return [k, k + 1, k + 2, k + 3]; }
+
+  rows([t, low, high, limit, out]) {
+    const red = out.map((o, k) => o || out[k - 1] || out[k + 1]), only = (v, k) => (red[k] ? v : null);
     let most = 0;
-    for (const [, low, high, limit] of points) most = Math.max(most, -(low ?? 0), high ?? 0, limit ?? 0);
-    // A scale that does not tremble: the next of 1, 2, 5 times a power of ten.
+    for (let k = 0; k < low.length; k++) most = Math.max(most, -(low[k] ?? 0), high[k] ?? 0, limit[k] ?? 0);
+    // A scale that does not tremble: the next of some parts of a power of ten.
     const power = 10 ** Math.floor(Math.log10(most || 1));
     this.size = [1, 1.5, 2, 3, 5, 7.5, 10].map((m) => m * power).find((s) => s >= most * 1.02) || 10 * power;
-    const { pen, x, y, w } = this.paper(last ? last[0] : 0, -this.size, this.size);
-    const band = points.filter((p) => p[3] !== null);
-    if (band.length) {
-      pen.beginPath();
-      band.forEach((p) => pen.lineTo(x(p[0]), y(p[3])));
-      band.slice().reverse().forEach((p) => pen.lineTo(x(p[0]), y(-p[3])));
-      pen.fillStyle = style("band");
-      pen.fill();
-      pen.strokeStyle = style("faint");
-      pen.lineWidth = 1;
-      pen.setLineDash([5, 4]);
-      for (const sign of [1, -1]) {
-        pen.beginPath();
-        band.forEach((p) => pen.lineTo(x(p[0]), y(sign * p[3])));
-        pen.stroke();
-      }
-      pen.setLineDash([]);
-    }
-    pen.strokeStyle = style("box");
-    pen.lineWidth = 1;
-    pen.beginPath();
-    pen.moveTo(0, y(0));
-    pen.lineTo(w, y(0));
-    pen.stroke();
-    const out = last && last[4];
-    pen.strokeStyle = style(out ? "clash" : "ink");
-    pen.lineWidth = out ? 2 : 1.3;
-    pen.beginPath();
-    let on = false;
-    for (const [t, low, high] of points) {
-      if (low === null) { on = false; continue; }
-      if (on) pen.lineTo(x(t), y(low)); else pen.moveTo(x(t), y(low));
-      pen.lineTo(x(t), y(high));
-      on = true;
-    }
-    pen.stroke();
-    this.tell(last, out);
+    return [t, limit, limit.map((v) => (v === null ? null : -v)), low, high, low.map(only), high.map(only)];
   }
 
-  tell(last, out) {
-    const known = last && last[3] !== null;
-    const unit = this.unit ? ` ${this.unit}` : "";
-    this.limit.textContent = !last ? "" : last[1] === null ? "warming up" : known ? `threshold ±${short(last[3])}${unit}` : `learning its threshold, ±${short(this.size)}${unit} shown`;
-    const ratio = known && last[1] !== null ? Math.max(-last[1], last[2]) / last[3] : 0;
-    this.ratio.textContent = known && last[1] !== null ? `${ratio.toFixed(ratio < 10 ? 1 : 0)} × threshold` : "";
-    this.box.classList.toggle("fired", Boolean(out));
-    this.canvas.setAttribute("aria-label", `${this.title}: ${this.limit.textContent} ${this.ratio.textContent}`);
+  zero(plot) {
+    const pen = plot.ctx, { left, width } = plot.bbox, y = Math.round(plot.valToPos(0, "y", true)) + 0.5;
+    pen.save();
+    pen.strokeStyle = ink("faint");
+    pen.lineWidth = devicePixelRatio || 1;
+    pen.beginPath();
+    pen.moveTo(left, y);
+    pen.lineTo(left + width, y);
+    pen.stroke();
+    pen.restore();
+  }
+
+  tell() {
+    const k = this.pointed, newest = this.places.map((p) => this.record.columns[p].at(-1) ?? null);
+    const [low, high, limit] = k === null ? newest : [3, 4, 1].map((s) => this.plot.data[s][k]);
+    const known = low !== null && limit !== null, ratio = known ? Math.max(-low, high) / limit : 0;
+    write(this.limit, !this.record.t.length ? "" : low === null ? "warming up" : limit === null ? "learning its threshold" : `threshold ±${withUnit(limit, this.unit, 3)}`);
+    const same = low !== null && number(low, 3) === number(high, 3);
+    write(this.value, low === null ? "" : same ? withUnit(low, this.unit, 3) : `${number(low, 3)} to ${withUnit(high, this.unit, 3)}`);
+    write(this.ratio, known ? `${ratio.toFixed(ratio < 10 ? 1 : 0)} × threshold` : "");
+    this.value.classList.toggle("out", ratio > 1);
+    this.box.classList.toggle("fired", Boolean(newest[3]));
+    this.plot.root.setAttribute("aria-label", `${this.name} of the ${this.whose} one: ${this.limit.textContent}`);
+  }
+
+  // For a table: what a column is called, and its values.
+  table() {
+    const [low, high, limit] = this.places.map((k) => this.record.columns[k]), unit = named(this.unit) ? ` [${this.unit}]` : "";
+    return [["least", low], ["largest", high], ["threshold", limit]].map(([what, column]) => [`${this.name} ${this.whose} ${what}${unit}`, column]);
   }
 }
 
-const LINES = [["trace", [], 3.4], ["inertia", [7, 5], 1.8], ["resistor", [2, 3], 1.8]]; // real, virtual, desired
-
-export class Plot extends Strip {
-  constructor(into, name, unit) {
-    super(into, [["name", name], ["ratio", ""]]);
-    this.unit = unit === "1" ? "" : unit;
-    this.clear();
-  }
-
-  clear() { this.points = []; }
-
-  add(t, values) {
-    this.points.push([t, ...values]);
-    recent(this.points);
-  }
-
-  draw() {
-    const all = this.points.flatMap((p) => p.slice(1)).filter((v) => v !== null);
-    const least = Math.min(0, ...all), most = Math.max(0, ...all, least + 1e-300), last = this.points.at(-1);
-    const { pen, x, y } = this.paper(last ? last[0] : 0, least, most);
-    LINES.forEach(([colour, dash, width], k) => {
-      pen.strokeStyle = style(colour);
-      pen.lineWidth = width;
-      pen.setLineDash(dash);
-      pen.beginPath();
-      for (const p of this.points) if (p[k + 1] !== null) pen.lineTo(x(p[0]), y(p[k + 1]));
-      pen.stroke();
+export class Sensor extends Strip {
+  constructor(into, name, unit, record, first, view, lacking) {
+    super(into, name, unit, record, view);
+    this.first = first;
+    this.machines = MACHINES.filter(([one]) => !lacking.includes(one));
+    if (named(unit)) this.head.append(make("span", { class: "limit" }, `in ${unit}`));
+    this.told = this.machines.map(([one, colour, dash, width]) => {
+      const value = make("span", { class: "value" });
+      this.values.append(make("span", { class: "which" }, swatch(colour, dash, Math.min(3, width)), `${one} `, value));
+      return value;
     });
-    pen.setLineDash([]);
-    if (last) this.ratio.textContent = `${short(last[1] ?? NaN)} ${this.unit}, from ${short(least)} to ${short(most)}`;
+    this.begin([{}, ...this.machines.map(([, colour, dash, width]) => line(colour, width, dash))], { scales: { y: { range: (_, least, most) => roomy(least, most) } } });
+    this.plot.root.setAttribute("aria-label", `${name}: ${this.machines.map(([one]) => one).join(", ")}`);
+  }
+
+  get places() { return this.machines.map(([one]) => this.first + MACHINES.findIndex((m) => m[0] === one)); }
+
+  rows(picture) { return picture; }
+
+  tell() {
+    const k = this.pointed;
+    this.places.forEach((p, which) => write(this.told[which], number(k === null ? this.record.columns[p].at(-1) : this.plot.data[which + 1][k], 4)));
+  }
+
+  table() {
+    const unit = named(this.unit) ? ` [${this.unit}]` : "";
+    return this.places.map((p, which) => [`${this.name} ${this.machines[which][0]}${unit}`, this.record.columns[p]]);
   }
 }

@@ -1,9 +1,8 @@
 // Curves over time: axes, a cursor with values, and zoom, by uPlot; residuals between their thresholds.
-import { uPlot } from "./vendored.js";
+import { BAND, EDGE, FONT, chart, line, named, swatch, withUnit } from "./charts.js";
 import { colour, make, number } from "./dom.js";
 
 const LINES = ["inertia", "resistor", "capacity", "source"], DASHES = [[], [7, 4], [2, 3], [9, 4, 2, 4]];
-const FONT = '11px "Source Sans 3", "Segoe UI", "Helvetica Neue", "Liberation Sans", Arial, sans-serif';
 
 // All times of some curves in order, and the curves at these: null where one has no point of its own.
 function joined(curves) {
@@ -15,15 +14,6 @@ function joined(curves) {
     return row;
   });
   return [times, ...rows];
-}
-
-function axes() {
-  const faint = colour("faint"), line = colour("line");
-  const own = { stroke: faint, font: FONT, ticks: { stroke: line, width: 1, size: 4 }, grid: { stroke: line, width: 1 } };
-  return [
-    { ...own, size: 26, gap: 3, values: (_, ticks) => ticks.map((t) => number(t)), space: 70 },
-    { ...own, size: 58, gap: 4, values: (_, ticks) => ticks.map((t) => number(t, 3)), space: 26 },
-  ];
 }
 
 // What happens at a moment: a dotted line, with its words above the first plot.
@@ -67,15 +57,15 @@ export class Curves {
     this.clear();
     this.last = run;
     if (!run) return;
-    const width = this.columns(), sync = uPlot.sync("bondgraph");
+    const width = this.columns();
     this.width = this.into.clientWidth;
     const group = (title, boxes) => { if (boxes.length) this.into.append(make("h3", {}, title), make("div", { class: "plots" }, ...boxes)); };
     const later = [];
     const box = (fired, lines, options, data) => {
-      const words = lines.map(({ name, stroke, unit, series }, k) => ({ unit, series: series ?? k + 1, value: make("span", { class: "value" }, unit && unit !== "1" ? `in ${unit}` : ""), name: make("b", {}, name), stroke }));
-      const place = make("div", { class: `plot${fired ? " fired" : ""}` }, make("p", {}, ...words.map((w) => make("span", {}, lines.length > 1 ? swatch(w.stroke) : null, w.name, " ", w.value)), fired ? make("span", { class: "mark" }, "▲ fired") : null));
+      const words = lines.map(({ name, stroke, dash, unit, series }, k) => ({ unit, series: series ?? k + 1, value: make("span", { class: "value" }, named(unit) ? `in ${unit}` : ""), name: make("b", {}, name), stroke, dash }));
+      const place = make("div", { class: `plot${fired ? " fired" : ""}` }, make("p", {}, ...words.map((w) => make("span", {}, lines.length > 1 ? swatch(w.stroke, w.dash) : null, w.name, " ", w.value)), fired ? make("span", { class: "mark" }, "▲ fired") : null));
       const tell = (plot) => words.forEach((w) => { w.value.textContent = at(plot, w.series, w.unit); });
-      later.push(() => this.made.push(new uPlot({ width, ...options, plugins: [...options.plugins, { hooks: { setCursor: tell } }], legend: { show: false }, scales: { x: { time: false } }, cursor: { sync: { key: sync.key }, drag: { x: true, y: false }, points: { size: 6 } } }, data, place)));
+      later.push(() => this.made.push(chart(place, { width, unit: lines[0].unit, ...options, plugins: [...options.plugins, { hooks: { setCursor: tell } }] }, data)));
       return place;
     };
     group("Residuals", run.residuals.map((r, k) => this.residual(r, run, k === 0, box)));
@@ -84,19 +74,18 @@ export class Curves {
   }
 
   residual(r, run, first, box) {
-    const fired = run.fired.includes(r.name), stroke = colour(fired ? "clash" : "ink");
-    const edge = { stroke: colour("faint"), width: 1, dash: [5, 4], points: { show: false } };
+    const fired = run.fired.includes(r.name), stroke = fired ? "clash" : "ink";
     return box(fired, [{ name: r.name, stroke, unit: r.unit, series: 3 }], {
-      height: 140, axes: axes(), plugins: [marks(run.marks, first)], bands: [{ series: [1, 2], fill: colour("band") }],
-      series: [{}, edge, edge, { stroke, width: 1.5, points: { show: false } }], // the last one is on top
+      height: 140, plugins: [marks(run.marks, first)], bands: [BAND],
+      series: [{}, EDGE, EDGE, line(stroke, 1.5)], // the last one is on top
     }, [r.t, r.bound, r.bound.map((b) => (b === null ? null : -b)), r.v]);
   }
 
   panel(panel, run, box) {
-    const lines = panel.lines.map((l, k) => ({ name: l.name, stroke: colour(LINES[k % 4]), unit: panel.unit, dash: DASHES[k % 4] }));
+    const lines = panel.lines.map((l, k) => ({ name: l.name, stroke: LINES[k % 4], unit: panel.unit, dash: DASHES[k % 4] }));
     return box(false, lines, {
-      height: 150, axes: axes(), plugins: [marks(run.marks, false)],
-      series: [{}, ...lines.map(({ stroke, dash }) => ({ stroke, dash, width: 1.6, spanGaps: false, points: { show: false } }))],
+      height: 150, plugins: [marks(run.marks, false)],
+      series: [{}, ...lines.map(({ stroke, dash }) => line(stroke, 1.6, dash))],
     }, joined(panel.lines));
   }
 }
@@ -104,14 +93,8 @@ export class Curves {
 // The value of a curve at the cursor: of a point of its own, not after it.
 function at(plot, series, unit) {
   const end = plot.cursor.idx;
-  if (end === null || end === undefined) return unit && unit !== "1" ? `in ${unit}` : "";
+  if (end === null || end === undefined) return named(unit) ? `in ${unit}` : "";
   let k = end;
   while (k > 0 && plot.data[series][k] === undefined) k--;
-  return `${number(plot.data[series][k])}${unit && unit !== "1" ? ` ${unit}` : ""} at ${number(plot.data[0][end])} s`;
-}
-
-function swatch(stroke) {
-  const made = make("i", { class: "swatch", "aria-hidden": "true" });
-  made.style.borderColor = stroke;
-  return made;
+  return `${withUnit(plot.data[series][k], unit)} at ${number(plot.data[0][end])} s`;
 }

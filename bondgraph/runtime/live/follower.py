@@ -95,7 +95,7 @@ class Follower:
         frame["virtual"]["p"] = self.places.virtual(rows)
         if decided is not None:
             frame["virtual"]["r"] = strips(decided)
-        for name, values in zip(self._shown, frame.get("s", ()), strict=False):
+        for name, values in zip(self._shown, frame["s"], strict=True):
             if name in read:
                 values[1] = short(float(read[name][-1]) * self._turn[name])
         self._messages.frame(self._round, frame)

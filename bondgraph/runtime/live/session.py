@@ -123,9 +123,8 @@ class Session:
             "real": {"p": self.places.real(time, told), "r": strips(batch)},
             "virtual": {"p": []},
             "desired": {"p": wanted},
+            "s": self._follower.sensors(told, shown),
         }
-        if not self.places.names:
-            frame["s"] = self._follower.sensors(told, shown)
         portion = Portion(self._number, frame, time.copy(), told)
         self._alone(self._follower.portions.put(portion, self._round))
         source = self._source

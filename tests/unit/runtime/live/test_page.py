@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ pytestmark = pytest.mark.skipif(PATH is None, reason="Chromium is not installed 
 #: Texts of the page and of its drawings that lie over each other.
 OVERLAPS = """(() => {
   const boxes = [...document.querySelectorAll("#plane text, .bondgraph text, .strip p > *, button, label, h2, #verdicts li > *")]
-    .filter((e) => e.textContent.trim() && getComputedStyle(e).visibility !== "hidden" && getComputedStyle(e).display !== "none")
+    .filter((e) => e.textContent.trim() && e.checkVisibility() && getComputedStyle(e).visibility !== "hidden" && getComputedStyle(e).display !== "none")
     .map((e) => [e.textContent.trim().slice(0, 30), e.getBoundingClientRect(), e]).filter((b) => b[1].width);
   const out = [];
   boxes.forEach(([a, p, e], i) => boxes.slice(i + 1).forEach(([b, q, f]) => {
@@ -50,6 +51,7 @@ class Page:
         found = re.search(r"http://127\.0\.0\.1:\d+/", self.first)
         assert found, self.first
         self.address = found[0]
+        self.folder = folder
 
     def open(self, tab: Tab) -> None:
         """Show it."""
@@ -99,10 +101,9 @@ class Page:
         return [e for e in self.tab._events if e.get("method") in bad]
 
 
-@pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
-    """One page for the tests of this file, in their order."""
-    folder = tmp_path_factory.mktemp("live")
+@contextmanager
+def opened(folder: Path) -> Iterator[Page]:
+    """The page in a browser."""
     page = Page(folder)
     try:
         with browser(folder / "profile") as tab:
@@ -113,6 +114,13 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
         page.server.wait()
         assert page.server.stdout is not None
         page.server.stdout.close()
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    """One page for the tests of this file, in their order."""
+    with opened(tmp_path_factory.mktemp("live")) as page:
+        yield page
 
 
 _CANVAS = "document.querySelectorAll('.strip canvas')"
@@ -126,7 +134,9 @@ def test_machines_move_and_residuals_scroll(page: Page) -> None:
     places = "['real', 'virtual', 'desired'].map((n) => document.querySelector('.path.' + n)"
     places += ".getAttribute('d') || '')"
     page.until(f"{places}.every((d) => d.length > 40)")
-    before, strips = page.tab.run(places), [_picture(page, k) for k in range(4)]
+    shown = page.tab.run("document.querySelectorAll('#strips .strip').length")
+    page.tab.run("document.querySelector('#strips').scrollIntoView()")
+    before, strips = page.tab.run(places), [_picture(page, k) for k in range(shown)]
     page.until(f"{places}.every((d, k) => d !== {json.dumps(before)}[k])")
     for k, picture in enumerate(strips):
         page.until(f"{_CANVAS}[{k}].toDataURL() !== {json.dumps(picture)}")
@@ -154,8 +164,8 @@ def test_an_injected_fault_fires_and_colours_what_is_suspected(page: Page) -> No
     assert page.text("#now-real .finding") == "no fault seen"
     # The mass is seen by the residual that is silent. Of the two left over one may be told alone:
     # which way it moved in the beginning depends on the moment of the click.
-    page.until("document.querySelector('#verdicts li.update .text')?.textContent"
-               ".startsWith('f[2] or F[2] since')")  # fmt: skip
+    page.until("[...document.querySelectorAll('#verdicts li.update .text')].some((e) =>"
+               " e.textContent.startsWith('f[2] or F[2] since'))")  # fmt: skip
     page.until(
         "['F[2]', 'f[2]', 'F[2],f[2]'].includes([...new Set([...document.querySelectorAll("
         "'.bondgraph .suspected')].map((e) => e.closest('[data-node]').dataset.node))]"
@@ -186,13 +196,14 @@ def test_the_form_names_units_and_the_keyboard_reaches_everything(page: Page) ->
     assert page.text("#unit") == "N"
     focused = []
     page.tab.run("document.activeElement.blur()")
-    for _ in range(14):
+    for _ in range(20):
         for kind in ("keyDown", "keyUp"):
             page.tab.call("Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab",
                           windowsVirtualKeyCode=9)  # fmt: skip
         focused.append(page.tab.run("document.activeElement.id || document.activeElement.name"
                                     " || document.activeElement.textContent"))  # fmt: skip
-    for what in ("pause", "reset", "target", "change", "size", "Inject", "clear", "whose"):
+    for what in ("pause", "reset", "target", "change", "size", "Inject", "clear", "whose", "span",
+                 "follow", "export", "strips"):  # fmt: skip
         assert what in focused, (what, focused)
 
 

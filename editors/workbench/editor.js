@@ -1,4 +1,4 @@
-// What the page uses of the packages; the rest of them is left out of the bundle.
+// Of CodeMirror: what the editor of the workbench uses; the rest is left out of the bundle.
 export { Compartment, EditorSelection, EditorState, StateEffect, StateField } from "@codemirror/state";
 export { Decoration, EditorView, crosshairCursor, drawSelection, dropCursor, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap, lineNumbers, rectangularSelection } from "@codemirror/view";
 export { HighlightStyle, StreamLanguage, bracketMatching, foldGutter, foldKeymap, foldService, indentOnInput, indentUnit, syntaxHighlighting } from "@codemirror/language";
@@ -8,4 +8,3 @@ export { forceLinting, lintGutter, nextDiagnostic, previousDiagnostic, setDiagno
 export { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
 export { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 export { LSPClient, LSPPlugin, findReferencesKeymap, hoverTooltips, jumpToDefinitionKeymap, renameKeymap, serverCompletion, serverDiagnostics, signatureHelp } from "@codemirror/lsp-client";
-export { default as uPlot } from "uplot";
