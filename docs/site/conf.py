@@ -25,6 +25,9 @@ default_role = "code"
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 
+# Pages of diagnostics show models that are wrong: what no token is, is coloured as that.
+suppress_warnings = ["misc.highlighting_failure"]
+
 html_theme = "furo"
 html_title = "bondgraph"
 html_static_path = ["static"]
