@@ -37,7 +37,7 @@ _FAR_NAMES = (26.0, 34.0, 44.0, 56.0, 70.0)  # px, where a junction has many bon
 _STROKE = 7.0  # px to each side of a bond
 _BETWEEN = tuple(22.5 + a for a in _COMPASS)
 _FINE = tuple(11.25 + a for a in sorted(_COMPASS + _BETWEEN))
-_RANK = {"Se": 0, "Sf": 0, "I": 1, "R": 3, "C": 2, "De": 4, "Df": 4}
+_RANK = {"Se": 0, "Sf": 0, "I": 1, "IC": 1, "R": 3, "C": 2, "De": 4, "Df": 4}
 
 
 class Wire(NamedTuple):
