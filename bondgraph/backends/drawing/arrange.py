@@ -329,12 +329,11 @@ def _labels(
         label = scene.bond_names[wire.bond]
         if not label:
             continue
-        spots = _beside(wire, width(label, SMALL))
-        boxes = [around(*at, width(label, SMALL), SMALL) for at in spots]
-        good = [i for i, box in enumerate(boxes) if canvas.room_for_box(box)]
-        best = good[0] if good else 0
-        placed[wire.bond] = spots[best]
-        canvas.box(boxes[best])
+        wide = width(label, SMALL)
+        spots = _beside(wire, wide)
+        free = (at for at in spots if canvas.room_for_box(around(*at, wide, SMALL)))
+        placed[wire.bond] = next(free, spots[0])
+        canvas.box(around(*placed[wire.bond], wide, SMALL))
     return placed
 
 

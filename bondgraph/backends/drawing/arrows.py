@@ -22,13 +22,14 @@ from bondgraph.text.tuples import NamedTuple
 _REACHES = (24.0, 30.0, 38.0, 50.0, 66.0, 90.0, 120.0)  # px from the element to its signal
 _ANGLES = tuple(22.5 * k for k in range(16))
 _BENDS = tuple(s * b for b in (0.0, 0.15, 0.22, 0.3, 0.38, 0.46, 0.55, 0.7, 0.9) for s in (1, -1))
-_PIECES = 20  # of a curve; bends are shares of its length, aside
-_SPOTS = 10  # free places that are compared
+_PIECES = 11  # of a curve while it is tried, twice as many when it is drawn
+_SPOTS = 6  # free places that are compared
 _FEW = 4  # where each is tried with a detour
 _CROSSINGS = 2  # with bonds, of a way that is still clearer than a name
 _BESIDE = math.cos(math.radians(24))  # of a signal and a bond that leave a junction
 _CONFUSED = 150.0  # px that such a way counts more
 _FAR_OUT = 1.35  # of the length of a curve and the distance of its ends
+_LOOKED = 7500  # points of the grid in one drawing: half a second
 _FAR = 900.0  # px: a longer way is harder to follow than a name is to find
 
 Way = tuple[Point, ...]
@@ -73,6 +74,7 @@ class _Placer:
         self.canvas: Canvas = covered(*own)
         self.labels, self.lines = Canvas(), Canvas()  # what a way may not hit, and should not cross
         self.clear = Canvas()  # the labels with room around them
+        self.left = _LOOKED
         self.drawn: dict[Way, tuple[Box, Box]] = {}  # the ways, and from where to where
         for bond, at in figure.labels.items():
             name = around(*at, width(scene.bond_names[bond], SMALL), SMALL)
@@ -110,25 +112,26 @@ class _Placer:
         elif not signal.block and len(signal.origins) == 1 and len(signal.names) == 1:
             here = self.boxes.get(signal.origins[0])
         if here is not None:
-            way = self._best(here, target)
+            way = self._best(here, target, self._way(here, target))
             if way is not None:
                 self._take(None, {way: (here, target)})
                 return Arrow(signal, None, way, ())
         origins = [self.boxes[o] for o in signal.origins if o in self.boxes]
-        best: tuple[tuple[float, float, float], Box, Way] | None = None
+        best: tuple[tuple[float, float, float], Box, Way, list[Way | None]] | None = None
         for box, tip in self._spots(signal, target, origins):
-            good = [way for way in (self._way(o, box) for o in origins) if way is not None]
+            tried = [self._way(origin, box) for origin in origins]
+            good = [way for way in tried if way is not None]
             length = sum(map(self._cost, good)) + 3 * _length(tip)
             crossings = sum(map(self._crossings, good))
             rank = float(len(origins) - len(good)), float(crossings), length
             if best is None or rank < best[0]:
-                best = rank, box, tip
+                best = rank, box, tip, tried
         assert best is not None
-        _, box, tip = best
+        _, box, tip, tried = best
         self._take(box, {tip: (box, target)})
         ways: list[Way] = []
-        for here in origins:
-            way = self._best(here, box)
+        for here, curve in zip(origins, tried, strict=True):
+            way = self._best(here, box, curve)
             if way is not None:
                 self._take(None, {way: (here, box)})
                 ways.append(way)
@@ -140,6 +143,9 @@ class _Placer:
         """The arrow with a detour for each of its ways that crosses more than it has to."""
         ways = []
         for way in (arrow.tip, *arrow.ways):
+            if not self._crossings(way):
+                ways.append(way)
+                continue
             others = Canvas()
             points = [w.points for w in self.figure.wires] + [w for w in self.drawn if w != way]
             for p, q in itertools.chain.from_iterable(map(itertools.pairwise, points)):
@@ -162,9 +168,8 @@ class _Placer:
                 self.canvas.line(p, q)
                 self.lines.line(p, q)
 
-    def _best(self, here: Box, to: Box) -> Way | None:
+    def _best(self, here: Box, to: Box, way: Way | None) -> Way | None:
         """A curve, or where it crosses something or goes far out a detour that is better."""
-        way = self._way(here, to)
         near = way is not None and _length(way) < _FAR_OUT * math.dist(way[0], way[-1])
         if way is not None and near and not self._crossings(way):
             return way
@@ -175,7 +180,9 @@ class _Placer:
         """A way round what is drawn; None where it would be too long to follow."""
         if math.dist((here.x0, here.y0), (to.x0, to.y0)) > _FAR:
             return None
-        way = detour(here, to, Box(0.0, 0.0, *self.figure.size), self.clear, lines)
+        paper = Box(0.0, 0.0, *self.figure.size)
+        way, seen = detour(here, to, paper, self.clear, lines, min(self.left, _LOOKED // 3))
+        self.left -= seen
         if way is None or _crossed(way, lines) > _CROSSINGS:
             return None
         return way
@@ -228,27 +235,23 @@ class _Placer:
 
     def _way(self, here: Box, to: Box) -> Way | None:
         """The clearest way from a box to another: straight or bent; None where it hits labels."""
-        p, q = _middle(here), _middle(to)
-        far = math.dist(p, q)
+        far = math.dist(_middle(here), _middle(to))
         if far > _FAR or far < 1:
             return None
-        best: tuple[tuple[float, float], Way] | None = None
+        best: tuple[tuple[float, float], float] | None = None
         for bend in _BENDS:
-            control = ((p[0] + q[0]) / 2 - bend * (q[1] - p[1]),
-                       (p[1] + q[1]) / 2 + bend * (q[0] - p[0]))  # fmt: skip
-            curve = quadratic(p, control, q, 2 if not bend else _PIECES)
-            way = _seen(curve, here.grow(4), to.grow(3))
+            way = _bent(here, to, bend, _PIECES)
             pairs = list(itertools.pairwise(way))
             if not pairs or not all(self.labels.room_for_line(a, b) for a, b in pairs):
                 continue
             crossings = self._crossings(way)
             cost = self._cost(way)
             if not crossings and cost < _CONFUSED + _length(way):
-                return way  # further bends are longer
+                return _bent(here, to, bend, 2 * _PIECES - 1)  # further bends are longer
             rank = float(crossings), cost
             if crossings <= _CROSSINGS and (best is None or rank < best[0]):
-                best = rank, way
-        return None if best is None else best[1]
+                best = rank, bend
+        return None if best is None else _bent(here, to, best[1], 2 * _PIECES - 1)
 
     def _cost(self, way: Way) -> float:
         """How long a way is, and longer where it leaves beside a bond: they look like one line."""
@@ -264,6 +267,14 @@ class _Placer:
 
 def _middle(box: Box) -> Point:
     return (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2
+
+
+def _bent(here: Box, to: Box, bend: float, pieces: int) -> Way:
+    """What is seen of a curve between two boxes, which is bent aside by a share of its length."""
+    p, q = _middle(here), _middle(to)
+    control = ((p[0] + q[0]) / 2 - bend * (q[1] - p[1]), (p[1] + q[1]) / 2 + bend * (q[0] - p[0]))
+    curve = quadratic(p, control, q, pieces if bend else 2)
+    return _seen(curve, here.grow(4), to.grow(3))
 
 
 def _crossed(way: Way, lines: Canvas) -> int:

@@ -23,11 +23,11 @@ _END = (1 << 30, 0)  # within the box that a way leads to
 
 
 def detour(
-    here: Box, to: Box, bounds: Box, texts: Canvas, lines: Canvas
-) -> tuple[Point, ...] | None:
+    here: Box, to: Box, bounds: Box, texts: Canvas, lines: Canvas, most: int
+) -> tuple[tuple[Point, ...] | None, int]:
     """A way between two boxes that hits no text and crosses as few lines as a person would.
 
-    None where texts leave no way.
+    None where texts leave no way, or `most` points were looked at; with how many that were.
     """
     starts, goals = _around(here, texts, lines), _around(to, texts, lines)
     middle = _middle(to)
@@ -37,12 +37,13 @@ def detour(
     queue = [(c + math.dist(_point(cell), middle), cell) for cell, c in cost.items()]
     heapq.heapify(queue)
     done: set[Cell] = set()
-    while queue:
+    while queue and len(done) < most:
         _, cell = heapq.heappop(queue)
         if cell in done:
             continue
         if cell == _END:
-            return _tightened(_back(before[cell], before), here, to, texts, lines)
+            way = _back(before[cell], before)
+            return _tightened(way, here, to, texts, lines), len(done)
         done.add(cell)
         if cell in goals and cost[cell] + goals[cell] < cost.get(_END, math.inf):
             cost[_END], before[_END] = cost[cell] + goals[cell], cell
@@ -62,7 +63,7 @@ def detour(
             if length < known:
                 cost[there], before[there] = length, cell
                 heapq.heappush(queue, (length + math.dist(q, middle), there))
-    return None
+    return None, len(done)
 
 
 def _cell(p: Point) -> Cell:

@@ -17,7 +17,7 @@ from bondgraph.text.tuples import NamedTuple
 
 _SWEEPS = 24  # over all columns, to the right and to the left
 _FEW = 300  # vertices up to which several orders are tried
-_SMALL = 60  # vertices up to which power may run to the left instead of bonds crossing
+_WORK = 300  # vertices and bonds that are laid out once more, from other vertices, for no crossing
 _MANY = 4000  # vertices beyond which crossings are not minimised
 
 
@@ -74,14 +74,17 @@ def _part(
 ) -> Layers:
     """The layers with as much upright as costs no crossing.
 
-    Where bonds would cross the power may run to the left, from each vertex in turn as the first.
+    Where bonds would cross the power may run to the left, from another vertex as the first: those
+    are tried that power comes from, then the rest.
     """
     branches = _branches(members, edges, hangs)
     between = _crosspieces(members, edges, branches, hangs)
     best: tuple[int, Layers] | None = None
     tries = [({**branches, **between}, -1)] if between else []
     tries += [(branches, -1), ({}, -1)]
-    tries += [(branches, n) for n in members if n not in branches] if len(members) <= _SMALL else []
+    entered = {head for _, head, _ in edges}
+    others = sorted((n for n in members if n not in branches), key=lambda n: n in entered)
+    tries += [(branches, n) for n in others[: _WORK // (len(members) + len(edges))]]
     for upright, first in tries:
         if best is None or best[0]:
             found = _layered(members, edges, bends, upright, first)

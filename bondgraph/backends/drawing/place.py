@@ -205,11 +205,7 @@ class Part:
                 continue
             x, y = self.centre[n]
             w = width(tag, SMALL)
-            spots = [(x + dx * (w / 2 + 14), y + dy) for dx, dy in _NAMES]
-            for out, angle in itertools.product(_FAR_NAMES, _COMPASS + _BETWEEN + _FINE):
-                dx, dy = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-                spots.append((x + dx * (out + w / 2), y + dy * out))
-            for at in spots:
+            for at in _name_spots(x, y, w):
                 box = around(*at, w, SMALL + 1)
                 if self.canvas.room_for_box(box.grow(1.5)):
                     self.tags[n] = at
@@ -279,6 +275,15 @@ class Part:
                 box = box.join(self.box[leaf.node])
         x = self.centre[node][0]
         return x - box.x0, box.x1 - x
+
+
+def _name_spots(x: float, y: float, wide: float) -> Iterator[Point]:
+    """Where the name of a junction may stand, the usual places first."""
+    for dx, dy in _NAMES:
+        yield x + dx * (wide / 2 + 14), y + dy
+    for out, angle in itertools.product(_FAR_NAMES, _COMPASS + _BETWEEN + _FINE):
+        turn = math.radians(angle)
+        yield x + math.cos(turn) * (out + wide / 2), y + math.sin(turn) * out
 
 
 class Leg(NamedTuple):

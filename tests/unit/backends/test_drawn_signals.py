@@ -11,6 +11,8 @@ from xml.etree import ElementTree
 import pytest
 
 import bondgraph
+from bondgraph.backends.drawing.canvas import Box, Canvas
+from bondgraph.backends.drawing.detour import detour
 from bondgraph.backends.drawing.pixels import pixels
 from bondgraph.backends.drawing.scene import Look
 from bondgraph.backends.drawing.shapes import Area, Stroke, Words, shapes
@@ -64,6 +66,34 @@ def test_a_controller_is_a_block_that_gets_its_sensor() -> None:
     svg = compilation.drawing()
     assert "f(y, goal)" in svg and 'class="block' in svg and "thin arrow: signal" in svg
     assert "thin arrow" not in bondgraph.compile("models/dc_motor.bg").drawing()
+
+
+def test_a_detour_goes_round_texts_and_lines_and_gives_up_in_time() -> None:
+    here, to, paper = Box(0, 90, 20, 110), Box(280, 90, 300, 110), Box(0, 0, 300, 200)
+    texts, lines = Canvas(), Canvas()
+
+    def length(most: int = 5000) -> float:
+        way, seen = detour(here, to, paper, texts, lines, most)
+        assert way is not None and seen <= most
+        assert all(texts.room_for_line(p, q) for p, q in itertools.pairwise(way))
+        assert sum(lines.crossings(p, q) for p, q in itertools.pairwise(way)) == crossed
+        return sum(math.dist(p, q) for p, q in itertools.pairwise(way))
+
+    crossed = 0
+    free = length()
+    assert free == pytest.approx(260, abs=12)  # straight, but for the grid
+    lines.line((150, -20), (150, 150))  # below it: a bond with its end at 150
+    below = length()
+    assert below == pytest.approx(2 * math.hypot(130, 50), rel=0.1)
+    texts.box(Box(140, 150, 160, 300))  # no way below without crossing, nor above: the bond is long
+    lines.line((150, -20), (150, -100))
+    crossed = 1
+    assert length() == pytest.approx(260, rel=0.1)
+    assert detour(here, to, paper, texts, lines, 5) == (None, 5)
+    for side in (Box(260, 70, 320, 80), Box(260, 120, 320, 130), Box(260, 70, 265, 130)):
+        texts.box(side)
+    texts.box(Box(310, 70, 320, 130))
+    assert detour(here, to, paper, texts, lines, 5000)[0] is None
 
 
 def test_values_numbers_and_boxes_on_request() -> None:

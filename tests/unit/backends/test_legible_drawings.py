@@ -12,11 +12,18 @@ from tests.unit.backends.legibility import crossings, drawn, fewest_crossings, m
 
 ROOT = Path(__file__).parents[3]
 MODELS = sorted((ROOT / "models").glob("*.bg"))
+#: Models of the adversary that are wrong on purpose: there is nothing to draw in them.
+WRONG = {"empty_model", "only_param", "se_se", "se_se_across", "self_int", "sf_sf_through"}
+ADVERSARY = sorted(
+    path for path in (ROOT / "tests" / "adversary" / "models").glob("*.bg")
+    if path.stem not in WRONG
+)  # fmt: skip
 OTHERS = [
     *sorted((ROOT / "tests" / "case_studies").glob("*.bg")),
     *sorted((ROOT / "tests" / "textbook").glob("*.bg")),
     *sorted((ROOT / "tests" / "cases").rglob("*.bg")),
-    *sorted((ROOT / "tests" / "adversary" / "models").glob("*.bg"))[::6],
+    *ADVERSARY[::6],
+    *[path for path in ADVERSARY if path.stem == "h_bridge_legs"],
 ]
 #: Crossings that the layout leaves although another one had fewer. Signals of the steam generator
 #: lead from the flows of water to those of heat, round the field that joins both. Three gyrators in
@@ -27,12 +34,8 @@ LEFT = {"steam_generator": 2, "gyrator_ring": 1, "h_bridge_legs": 1}
 
 @pytest.mark.parametrize("path", MODELS + OTHERS, ids=lambda p: f"{p.parent.name}-{p.stem}")
 def test_a_drawing_has_no_overlap_no_crossing_and_all_arrows(path: Path) -> None:
-    try:
-        compilation = bondgraph.compile(str(path), open_ports=True)
-        causal = [compilation.integral, compilation.derivative]
-    except bondgraph.CompileError:
-        pytest.skip("has no causality, as it is meant")
-    for graph in causal:
+    compilation = bondgraph.compile(str(path), open_ports=True)
+    for graph in (compilation.integral, compilation.derivative):
         picture = drawn(graph)
         assert overlaps(picture) == []
         assert missed(picture) == []
