@@ -951,14 +951,14 @@ class Compilation:
         from bondgraph.passes.elaboration.elaborate import elaborate
         from bondgraph.passes.elaboration.unit_mends import CODE, unit_mends
 
-        def holds(text: str) -> bool:
+        def findings(text: str) -> list[str]:
             report, source = Report(), Source(self.source.path, text)
             file = parse(source, report)
             if file is not None and not report.failed:
                 elaborate(file, source, self.model, self._load, report, self.options.open_ports)
-            return not any(d.code == CODE for d in report.diagnostics)
+            return [d.message for d in report.diagnostics if d.code == CODE]
 
-        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, holds)
+        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, findings)
 
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
