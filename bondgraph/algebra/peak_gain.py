@@ -39,8 +39,10 @@ def peak_gains(recursion: Matrix, into: Matrix, out: Matrix, through: Matrix, fi
 
     size = len(recursion)
     sum_of_powers = np.linalg.inv(np.eye(size) - np.abs(recursion)) if size else recursion
-    if not (np.isfinite(sum_of_powers).all() and (sum_of_powers >= 0.0).all()):
+    least = -1e-12 * np.abs(sum_of_powers).max(initial=0.0)
+    if not (np.isfinite(sum_of_powers).all() and (sum_of_powers >= least).all()):
         raise Unstable
+    sum_of_powers = np.maximum(sum_of_powers, 0.0)
     impulse, start, so_far = into.copy(), first.copy(), np.abs(through)
     largest = so_far + np.abs(out @ start)
     least = _LEFT * max(1e-300, np.abs(into).max(initial=0.0), np.abs(first).max(initial=0.0))

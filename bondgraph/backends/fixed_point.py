@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from hashlib import sha256
 from typing import TYPE_CHECKING, TypeAlias
 
 from bondgraph.algebra import cubic_tanh
@@ -69,6 +70,11 @@ _SMALL = 2.0**-16  # of the largest range of those that have one scale, room for
 _DOUBLE = 1.0 + 1e-3  # of a bound, for the roundings of double that it is compared with
 _TURN = 16.0  # where tanh is 1 to the last bit of a double
 _TRIES = 12
+_TOO_ROUGH = (
+    "loses more by rounding than its range leaves room for",
+    None,
+    "A wider filter (`--bandwidth`) remembers less.",
+)
 _ONE: Atom = ("1", Ref("local", "1"))
 
 
@@ -161,6 +167,8 @@ def _fixed(
         bits |= scaling.bits
     if report.failed:
         return None
+    scaled = f"{part.digest} {sorted(samples.items())}".encode()
+    part = part._replace(digest=sha256(scaled).hexdigest()[: len(part.digest)])
     return FixedProgram(part, tuple(found), samples, residuals, bits, known.settle)
 
 
@@ -227,6 +235,13 @@ class _Scaling:
         self._check_states()
         self._check_integrals()
         self.gains = self._gains()
+        self._arguments = {
+            ref
+            for o in (*self.first, *self.step)
+            if not isinstance(o, Linear)
+            for ref in operands(o)
+            if ref in self.gains
+        }
         self.groups = self._groups()
         self.bits: dict[Ref, int] = {}
         self.rounding: dict[Ref, float] = {}
@@ -369,10 +384,18 @@ class _Scaling:
         """What a value of whole numbers stays within, both ways."""
         if ref.space == "known":
             return self._size(("u", ref))
-        return max(map(abs, self._span(ref))) * _SLACK + self._least.get(ref, 0.0)
+        return max(map(abs, self._allowed(ref))) + self._least.get(ref, 0.0)
+
+    def _allowed(self, ref: Ref) -> tuple[float, float]:
+        """The same as an interval, without the roundings of what is larger at the same scale."""
+        low, high = self._span(ref)
+        if ref.space == "known":
+            return low, high
+        room = (_SLACK - 1.0) * max(-low, high)
+        return low - room, high + room
 
     def _span(self, ref: Ref) -> tuple[float, float]:
-        """What a value of real numbers stays within."""
+        """What a value stays within while sums are not rounded, but all else is."""
         if ref.space == "known":
             limits = self.samples[ref.name]
             return limits.low, limits.high
@@ -400,13 +423,13 @@ class _Scaling:
                 return -limit, limit
             if any(t.variable.space == "state" for t in operation.terms):
                 return -math.inf, math.inf  # the peak gain says it
-            return _sum_of(operation, self._span)
+            return _sum_of(operation, self._summand)
         if isinstance(operation, Call):
-            low, high = self._span(operation.argument)
+            low, high = self._allowed(operation.argument)
             if operation.function == "near_tanh":
                 return math.tanh(low), math.tanh(high)
             return _root(low), _root(high)
-        left, right = self._span(operation.left), self._span(operation.right)
+        left, right = self._allowed(operation.left), self._allowed(operation.right)
         if operation.what == "/":
             if right[0] <= 0.0 <= right[1]:
                 raise Unrepresentable(
@@ -417,6 +440,11 @@ class _Scaling:
             right = 1.0 / right[1], 1.0 / right[0]
         products = [a * b for a in left for b in right]
         return min(products), max(products)
+
+    def _summand(self, ref: Ref) -> tuple[float, float]:
+        """What a sum has to reckon with: the roundings of other sums are counted by themselves."""
+        made = self.gains.get(ref, {}).get(("n", ref), 0.0)
+        return self._allowed(ref) if made else self._span(ref)
 
     def _window(self, operation: Linear) -> float:
         """How far what reads an integral is looked at."""
@@ -550,6 +578,8 @@ class _Scaling:
             if not wide and target not in self.integrals:
                 return self._accumulated(operation)
             counts = tuple((int(t.number), t.variable) for t in operation.terms)
+            if len({bits[ref] for _, ref in counts}) > 1:
+                raise Unrepresentable("integrates a sample as it comes", operation.origin)
             if target in self.integrals:
                 return Count(target, counts)
             shift = bits[wide[0]] - bits[target]
@@ -637,6 +667,9 @@ class _Scaling:
     def _overflowing(self, instructions: Iterable[Instruction]) -> list[Ref]:
         """The targets that a value, or a sum on its way, does not fit at its scale."""
         found: dict[Ref, None] = {}
+        for ref in self._arguments:
+            if self._largest(ref) > max(map(abs, self._allowed(ref))):
+                raise Unrepresentable(*_TOO_ROUGH)
         for instruction in instructions:
             target = instruction.target
             if target in self.integrals:
@@ -647,11 +680,7 @@ class _Scaling:
                 self._reach(target), math.ldexp(_MOST, -self.bits[target])
             ):
                 if self._largest(target) > self._reach(target):
-                    raise Unrepresentable(
-                        "loses more by rounding than its range leaves room for",
-                        None,
-                        "A wider filter (`--bandwidth`) remembers less.",
-                    )
+                    raise Unrepresentable(*_TOO_ROUGH)
                 found[target] = None
         return list(found)
 
@@ -736,7 +765,7 @@ class _Scaling:
         if operation.what == "*":
             found = unit.plus(self._reach(operation.left), right)
             return found.plus(self._reach(operation.right), left)
-        least = min(map(abs, self._span(operation.right))) / _SLACK
+        least = min(map(abs, self._allowed(operation.right)))
         found = unit.plus(1.0 / least, left)
         return found.plus(self._reach(operation.left) / least**2, right)
 

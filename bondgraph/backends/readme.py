@@ -43,6 +43,7 @@ def readme(
         "files": _file_list(facts.file, targets, extras, fixed is not None),
         "embedded": [_EMBEDDED[name](program, facts) for name in targets],
         "fixed_signals": [] if fixed is None else _fixed_signals(fixed),
+        "fixed_digest": "" if fixed is None else fixed.program.digest,
         "fixed_residuals": [] if fixed is None else _fixed_residuals(fixed),
         "examples": [_EXAMPLES[name](text, facts) for name, text in programs.items()],
         "usage": _usage(program, facts, targets, fixed is not None),

@@ -63,6 +63,8 @@ def with_ranges(compilation: Compilation, args: Namespace) -> Compilation:
     found: dict[str, tuple[float, float]] = {}
     if compilation.options.extras or compilation.options.tuning is not None:
         compilation.with_options(real="fixed")  # which says that there is no such thing
+    if not compilation.residuals:
+        return compilation  # there is nothing to be written
     for path in args.ranges:
         for name, own in _logged(compilation, path, args.map).items():
             low, high = found.get(name, own)

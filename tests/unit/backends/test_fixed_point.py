@@ -13,6 +13,7 @@ import pytest
 import bondgraph
 from bondgraph.algebra import cubic_tanh
 from bondgraph.backends.identifiers import snake
+from bondgraph.cli.main import main
 from bondgraph.ir.fixed_program import FixedProgram
 from bondgraph.pipeline import Compilation, WrongOption
 from bondgraph.text.diagnostic import CompileError
@@ -255,3 +256,40 @@ def test_options_that_have_no_whole_numbers_are_told() -> None:
             bondgraph.compile(_MODELS / "dc_motor.bg", real="fixed", **options)
     with pytest.raises(ValueError):
         bondgraph.compile(_MODELS / "dc_motor.bg", real="fixed", ranges={"U": (3.0, 2.0)})
+
+
+# ------------------------------------------------------------------------ the command
+
+
+def _limits_of(text: str) -> dict[str, tuple[float, float]]:
+    found = re.findall(r"int32_t (\w+); .*times 2\^-?\d+, from (\S+) to (\S+) ", text)
+    return {name: (float(low), float(high)) for name, low, high in found}
+
+
+def test_ranges_come_from_a_log_and_from_options(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Twice the largest amount in the log, to the next power of two; an option goes before it."""
+    log, model = tmp_path / "log.csv", str(_MODELS / "dc_motor.bg")
+    log.write_text("t,load (N.m),U,current (mA),speed\n0,0.001,1,300,-5\n0.001,0.001,-3,,7\n")
+    common = ["compile", model, "--real", "fixed", "--quiet", "-o", str(tmp_path / "out")]
+    assert main([*common, "--ranges", str(log), "--range", "speed=0..1200 rad/min"]) == 0
+    limits = _limits_of((tmp_path / "out" / "motor.h").read_text())
+    assert limits["U"] == (-8.0, 8.0) and limits["current"] == (-1.0, 1.0)
+    assert limits["load"] == (-0.00390625, 0.00390625) and limits["speed"] == (0.0, 20.0)
+    assert main([*common, "--range", "speed=-3..4 A"]) == 1
+    assert "not in A" in capsys.readouterr().err
+    assert main([*common, "--range", "sped=-3..4"]) == 2
+    assert "did you mean `speed`" in capsys.readouterr().err
+    assert main([*common[:2], "--range", "speed=-3..4"]) == 1
+    assert "for --real fixed only" in capsys.readouterr().err
+
+
+def test_nothing_is_written_where_it_is_refused(tmp_path: Path) -> None:
+    model, out = str(_MODELS / "slider_crank.bg"), tmp_path / "out"
+    bounds = [w for n in ("T", "load", "speed") for w in ("--range", f"{n}=-1..1")]
+    assert main(["compile", model, "--real", "fixed", *bounds, "-o", str(out)]) == 1
+    assert not out.exists()
+    for option in ("--with=tests", "--libm"):
+        assert main(["compile", model, "--real", "fixed", option, "-o", str(out)]) == 1
+    assert not out.exists()
