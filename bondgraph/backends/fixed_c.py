@@ -14,6 +14,7 @@ from bondgraph.backends.identifiers import spellings
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.ir.fixed_program import (
+    SAMPLE_BITS,
     Accumulate,
     Count,
     Divide,
@@ -32,8 +33,7 @@ from bondgraph.ir.program import Field, Known, Ref
 from bondgraph.text.numerals import joined
 
 #: What the templates call their functions, beside the names of `target.toml`.
-_NAMES = frozenset("held top high within bounded window tanh_of cubics".split())
-RANGE = 29  # bits of a sample beside its sign, where its range has both signs
+_NAMES = frozenset("held top high within bounded window tanh_of cubics turned".split())
 
 
 def files(fixed: FixedProgram, target: Target) -> dict[str, object]:
@@ -52,6 +52,10 @@ class _Code:
         self.prefix = self.about.stem.upper()
         self.factors: dict[tuple[int, int, str], str] = {}
         self.taken: set[str] = set(target.words) | {"settle", "longest"}
+        states = frozenset(self.spelling.states.values()) | {"age", "youngest", "usual"}
+        names = spellings(self.spelling.encoders.values(), target.words | states)
+        self.encoders = {key: names[own] for key, own in self.spelling.encoders.items()}
+        self.counted = {k.name for k in self.program.knowns if k.counts is not None}
         self.wide = {g.state for b in fixed.blocks for g in b.guards}
 
     def holes(self) -> dict[str, object]:
@@ -88,7 +92,9 @@ class _Code:
             "lines": [],
             "bounded": False,
             "needs_functions": False,
+            "encoders": self._encoders(),
             "has_high": self._has_high(),
+            "bounds": any(b.guards for b in self.fixed.blocks),
             "windows": Window in kinds,
             "roots": SignedRoot in kinds,
             "cubics": self._cubics() if Sigmoid in kinds else [],
@@ -144,6 +150,10 @@ class _Code:
         limits = self.fixed.samples.get(known.name)
         if limits is None:
             return f"{about_known(known)}; step does not read it"
+        if known.counts is not None:
+            turn = f", {known.counts:g} a turn" if known.counts else ""
+            far = f"{limits.least} to {limits.most} from one sample to the next"
+            return f"counts{turn}, may run over, {far}: {known.path}"
         return f"times 2^{limits.bits}, from {limits.low:g} to {limits.high:g} {about_known(known)}"
 
     def _bits(self) -> list[str]:
@@ -152,6 +162,7 @@ class _Code:
         rows = [
             (f"{prefix}_BITS_{spelling.knowns[name]} = {limits.bits},", f"of {name}")
             for name, limits in self.fixed.samples.items()
+            if name not in self.counted
         ]
         rows += [
             (f"{prefix}_RESIDUAL_BITS_{spelling.numbers[name]} = {own.bits},", f"of {name}")
@@ -193,7 +204,11 @@ class _Code:
 
     def _within(self) -> dict[str, object]:
         """How step sees that a sample is within its limits, and holds it there."""
-        pairs = [(self.spelling.knowns[n], limits) for n, limits in self.fixed.samples.items()]
+        pairs = [
+            (self.spelling.knowns[name], limits)
+            for name, limits in self.fixed.samples.items()
+            if name not in self.counted
+        ]
         both = [name for name, limits in pairs if _has_both_signs(limits)]
         others = [
             f"s->{name} >= {limits.least} && s->{name} <= {limits.most}"
@@ -203,13 +218,13 @@ class _Code:
         conditions = list(others)
         if both:
             summed = " | ".join(f"within(s->{name})" for name in both)
-            conditions.insert(0, f"({summed}) < {1 << (RANGE + 1)}u")
+            conditions.insert(0, f"({summed}) < {1 << (SAMPLE_BITS + 1)}u")
         return {
             "all": listing.statement(
                 "return {0};", " && ".join(conditions) or "true", self.target, 4
             ),
             "both": bool(both),
-            "offset": f"{1 << RANGE}u",
+            "offset": f"{1 << SAMPLE_BITS}u",
             "held": [
                 f"out->{name} = held(s->{name}, {limits.least}, {limits.most});"
                 for name, limits in pairs
@@ -222,7 +237,7 @@ class _Code:
         computed = [name for name in order if name in places]
         good: list[str] = []
         for at, block in enumerate(self.fixed.blocks):
-            parts = [self._is_good(name) for name in block.knowns if name in self.fixed.samples]
+            parts = [self._is_good(name) for name in block.knowns if name not in self.counted]
             parts += self._guards(block)
             value = " && ".join(parts) or "true"
             good += listing.statement(f"good[{at}] = {{0}};", value, self.target, 4)
@@ -249,7 +264,28 @@ class _Code:
         return [
             f"bounded(x->{self.spelling.states[g.state.name]}, {_wide(g.limit)})"
             for g in block.guards
+        ] + [
+            f"x->{memory}.turned == held(x->{memory}.turned, {own.least}, {own.most})"
+            for memory, _, own in self._counters(block)
         ]
+
+    def _counters(self, block: FixedBlock) -> list[tuple[str, str, Limits]]:
+        """The encoders of a block: the memory of each, its signal, and how far it may turn."""
+        return [
+            (self.encoders[block.name, name], name, self.fixed.samples[name])
+            for name in block.knowns
+            if name in self.counted
+        ]
+
+    def _encoders(self) -> list[str]:
+        """The encoders, as members of the memory."""
+        return self._members(
+            [
+                (f"{self.about.stem}_encoder {memory};", f"{name}, read by {joined(b.residuals)}")
+                for b in self.fixed.blocks
+                for memory, name, _ in self._counters(b)
+            ]
+        )
 
     # ----------------------------------------------------------------------- statements
 
@@ -278,8 +314,11 @@ class _Code:
         for name, wish in wishes.items():
             taken = self.target.reserved | _NAMES | set(free.values())
             free[name] = spellings([wish], taken)[wish]
+        for memory, name, _ in self._counters(block):
+            taken = self.target.reserved | _NAMES | set(free.values())
+            free[f"turned {name}"] = spellings([memory], taken)[memory]
         spell = partial(self._spelled, free)
-        found: list[str] = []
+        found = self._turned(block, free, procedure is block.first)
         last = ""
         about = block.residuals[0] + ": "
         for explained in procedure:
@@ -294,7 +333,23 @@ class _Code:
         return [*head, *([""] if head else []), *found]
 
     def _spelled(self, free: dict[str, str], ref: Ref) -> str:
+        if ref.space == "increment":
+            return free[f"turned {ref.name}"]
         return free[ref.name] if ref.space == "local" else self.spelling.value(ref)
+
+    def _turned(self, block: FixedBlock, free: dict[str, str], is_first: bool) -> list[str]:
+        """How far each encoder has turned since the sample before."""
+        found = []
+        for memory, name, own in self._counters(block):
+            place = f"&x->{memory}, s->{self.spelling.knowns[name]}"
+            if is_first:
+                known = self.spelling.knowns[name]
+                found.append(f"    x->{memory}.count = (uint32_t)s->{known};")
+                found.append(f"    x->{memory}.turned = 0;")
+            else:
+                value = f"held(turn({place}), {own.least}, {own.most}) * {1 << own.bits}"
+                found.append(f"    const int32_t {free[f'turned {name}']} = {value};")
+        return found
 
     def _statement(self, instruction: Instruction, spell: partial[str]) -> list[str]:
         target = instruction.target

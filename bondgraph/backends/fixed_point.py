@@ -29,6 +29,7 @@ from bondgraph.backends.straight_line import (
     straight_line,
 )
 from bondgraph.ir.fixed_program import (
+    SAMPLE_BITS,
     Accumulate,
     Count,
     Deviation,
@@ -60,7 +61,7 @@ if TYPE_CHECKING:
 Atom: TypeAlias = tuple[str, Ref]
 Row: TypeAlias = dict[Atom, float]
 
-RANGE = 29  # bits of a sample beside its sign
+_SAMPLED = frozenset({"known", "increment"})
 _WORD = 31
 _MOST = (1 << _WORD) - 1  # of a whole number of 32 bits
 _WIDE = 61  # bits of an integral of 64 beside its sign, less room for a step
@@ -153,7 +154,7 @@ def _fixed(
     origins = {r.name: r.origin for r in part.residuals}
     found = []
     residuals: dict[str, Deviation] = {}
-    bits = {Ref("known", name): limits.bits for name, limits in samples.items()}
+    bits = _sample_bits(samples)
     for block in blocks(part):
         try:
             scaling = _Scaling(part, block, coefficients, samples, ranges)
@@ -174,9 +175,8 @@ def _fixed(
 
 def _check_program(part: Program) -> None:
     for known in part.knowns:
-        if known.kind == "mode" or known.counts is not None:
-            kind = "switch" if known.kind == "mode" else "encoder"
-            raise Unrepresentable(f"read the {kind} `{known.path}`", known.origin)
+        if known.kind == "mode":
+            raise Unrepresentable(f"read the switch `{known.path}`", known.origin)
     for what, there in (
         ("remember past samples for a delay", part.delayed),
         ("start anew where switches turn", part.openings),
@@ -189,6 +189,8 @@ def _check_program(part: Program) -> None:
 def _limits(known: Known, ranges: Mapping[str, tuple[float, float]]) -> Limits:
     """What a sample may be: where it has both signs, to the next power of two."""
     path, unit = known.path, known.unit
+    if known.counts is not None:
+        unit = "counts from one sample to the next"
     if path not in ranges:
         raise Unrepresentable(
             "has no range",
@@ -198,11 +200,16 @@ def _limits(known: Known, ranges: Mapping[str, tuple[float, float]]) -> Limits:
         )
     low, high = ranges[path]
     largest = max(abs(low), abs(high))
+    if known.counts is not None:
+        if largest > 2.0**SAMPLE_BITS:
+            raise Unrepresentable(f"has a range of more than 2^{SAMPLE_BITS} counts", known.origin)
+        bits = SAMPLE_BITS - math.frexp(largest)[1]
+        return Limits(bits, math.ceil(low), math.floor(high), low, high)
     power = math.frexp(largest)[1] - (math.frexp(largest)[0] == 0.5)
-    bits = RANGE - power
+    bits = SAMPLE_BITS - power
     if low < 0.0 < high:
         size = 2.0**power
-        return Limits(bits, -(1 << RANGE), (1 << RANGE) - 1, -size, size)
+        return Limits(bits, -(1 << SAMPLE_BITS), (1 << SAMPLE_BITS) - 1, -size, size)
     least, most = math.ceil(math.ldexp(low, bits)), math.floor(math.ldexp(high, bits))
     return Limits(bits, least, most, low, high)
 
@@ -223,7 +230,8 @@ class _Scaling:
         self.docs = {Ref("state", s.name): s.doc for s in program.states}
         self.samples = samples
         self.ranges = ranges
-        self.first = straight_line(block.first, coefficients)
+        at_rest = {Ref("increment", name): 0.0 for name in block.knowns}
+        self.first = straight_line(block.first, {**coefficients, **at_rest})
         self.step = straight_line(block.step, coefficients)
         self.by_target: dict[Ref, list[Operation]] = {}
         for procedure in (self.first, self.step):
@@ -294,7 +302,7 @@ class _Scaling:
     def _row(self, variable: Ref, rows: Mapping[Ref, Row]) -> Row:
         if variable in rows:
             return rows[variable]
-        if variable.space == "known":
+        if variable.space in _SAMPLED:
             return {("u", variable): 1.0}
         kind = "g" if variable in self.integrals else "x"
         return {(kind, variable): 1.0}
@@ -382,21 +390,21 @@ class _Scaling:
 
     def _reach(self, ref: Ref) -> float:
         """What a value of whole numbers stays within, both ways."""
-        if ref.space == "known":
+        if ref.space in _SAMPLED:
             return self._size(("u", ref))
         return max(map(abs, self._allowed(ref))) + self._least.get(ref, 0.0)
 
     def _allowed(self, ref: Ref) -> tuple[float, float]:
         """The same as an interval, without the roundings of what is larger at the same scale."""
         low, high = self._span(ref)
-        if ref.space == "known":
+        if ref.space in _SAMPLED:
             return low, high
         room = (_SLACK - 1.0) * max(-low, high)
         return low - room, high + room
 
     def _span(self, ref: Ref) -> tuple[float, float]:
         """What a value stays within while sums are not rounded, but all else is."""
-        if ref.space == "known":
+        if ref.space in _SAMPLED:
             limits = self.samples[ref.name]
             return limits.low, limits.high
         if ref in self._spans:
@@ -490,7 +498,7 @@ class _Scaling:
                 ends = []
             else:
                 ends = [target, *(t.variable for t in operation.terms if abs(t.number) == 1.0)]
-            ends = [e for e in ends if e.space != "known" and not self._own_scale(e)]
+            ends = [e for e in ends if e.space not in _SAMPLED and not self._own_scale(e)]
             for end in ends[1:]:
                 groups.join(ends[0], end)
         return groups
@@ -514,7 +522,7 @@ class _Scaling:
             for o in (*self.first, *self.step)
             if isinstance(o, Call) and o.function == "near_tanh"
         }
-        self.bits = {Ref("known", name): limits.bits for name, limits in self.samples.items()}
+        self.bits = _sample_bits(self.samples)
         for root, refs in members.items():
             spans = [max(map(abs, self._span(r))) for r in refs if r not in self.integrals]
             if len(spans) > 1:  # what is small beside the others has their roundings
@@ -613,7 +621,7 @@ class _Scaling:
         plain: list[tuple[bool, Ref]] = []
         rest: list[Term] = []
         for term in operation.terms:
-            same = term.variable.space != "known" and bits[term.variable] == own
+            same = term.variable.space not in _SAMPLED and bits[term.variable] == own
             if abs(term.number) == 1.0 and bits[term.variable] == own:
                 plain.append((term.number > 0.0, term.variable))
             elif same and 0.5 <= abs(term.number) < 1.5:
@@ -725,7 +733,7 @@ class _Scaling:
         )
 
     def _error(self, ref: Ref) -> Bound:
-        if ref.space == "known":
+        if ref.space in _SAMPLED:
             return _NONE
         if ref in self._errors:
             return self._errors[ref]
@@ -781,6 +789,11 @@ class _Scaling:
         return Bound(each[0], each[1] * 3600.0 * self.rate)
 
 
+def _sample_bits(samples: Mapping[str, Limits]) -> dict[Ref, int]:
+    """The scale of each sample; encoders are read by what they have turned."""
+    return {Ref(s, n): own.bits for n, own in samples.items() for s in ("known", "increment")}
+
+
 def _sum_of(
     operation: Linear, span: Callable[[Ref], tuple[float, float]]
 ) -> tuple[float, float]:
@@ -809,7 +822,7 @@ def _plain(ref: Ref) -> str:
 def _finest(reach: float) -> int:
     """The most bits behind the point at which so much fits in 31."""
     if reach <= 0.0:
-        return RANGE
+        return SAMPLE_BITS
     return max(-_FINEST, min(_FINEST, _WORD - math.frexp(reach * (1.0 + 2.0**-30))[1]))
 
 

@@ -56,11 +56,14 @@ def readme(
 def _fixed_signals(fixed: FixedProgram) -> list[str]:
     """How each sample is scaled, and what it may be."""
     paths = {k.name: k for k in fixed.program.knowns}
-    rows = (
-        (f"`{paths[name].path}`", paths[name].unit or "-", f"2^{own.bits}",
-         f"{own.low:g} to {own.high:g}", f"{own.least} to {own.most}")
-        for name, own in fixed.samples.items()
-    )  # fmt: skip
+    rows = []
+    for name, own in fixed.samples.items():
+        known, whole = paths[name], f"{own.least} to {own.most}"
+        unit, scale = known.unit or "-", f"2^{own.bits}"
+        limits = f"{own.low:g} to {own.high:g}"
+        if known.counts is not None:
+            unit, scale, limits = "counts", "1", "any number; per sample"
+        rows.append((f"`{known.path}`", unit, scale, limits, whole))
     return _table(("signal", "unit", "times", "limits", "limits as whole numbers"), rows)
 
 

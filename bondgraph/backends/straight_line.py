@@ -171,8 +171,10 @@ class _Writer:
             case Const():
                 return _Sum({}, node.value)
             case Ref():
-                if node.space in ("increment", "total"):
-                    raise Unrepresentable(f"counts the encoder {node.name}", self.origin)
+                if node.space == "total":
+                    raise Unrepresentable(
+                        f"counts the encoder `{node.name}` since the start", self.origin
+                    )
                 return self.known.get(node, _Sum({node: (1.0, "")}))
             case Sum():
                 return self._added(node)

@@ -70,11 +70,14 @@ def with_ranges(compilation: Compilation, args: Namespace) -> Compilation:
             low, high = found.get(name, own)
             found[name] = min(low, own[0]), max(high, own[1])
     program = compilation.program
+    counted = {k.path for k in program.knowns if k.counts is not None}
     known = [k.path for k in program.knowns] + [s.name for s in program.states]
     for name, low, high in args.bounds:
         if name not in known:
             raise console.Unknown(name, "no signal of the residuals", known)
         check_units(compilation.graph, [(name, low), (name, high)])
+        if name in counted and high.unit is not None:
+            raise Trouble(f"`{name}` is an encoder: its range is in counts from sample to sample")
         found[name] = float(low), float(high)
     return compilation.with_options(real="fixed", ranges=found)
 
@@ -96,6 +99,8 @@ def _logged(
     found = {}
     for known, column in zip(knowns, samples.T, strict=True):
         there = column[np.isfinite(column)]
+        if known.counts is not None:  # a counter runs over
+            there = (np.diff(there) + 2.0**31) % 2.0**32 - 2.0**31
         if len(there) and np.abs(there).max() > 0.0:
             size = FARTHER * float(np.abs(there).max())
             found[known.path] = -size, size

@@ -13,6 +13,9 @@ from bondgraph.ir.program import Program, Ref
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
+#: Bits of a sample beside its sign, where its range has both signs.
+SAMPLE_BITS = 29
+
 
 class Factor(NamedTuple):
     """A whole number times a variable; `name` says what it is, `bits` how it is scaled."""
@@ -115,7 +118,11 @@ class FixedBlock(NamedTuple):
 
 
 class Limits(NamedTuple):
-    """What a sample may be, as a whole number, scaled by 2**bits; `low` to `high` in its unit."""
+    """What a sample may be, as a whole number, scaled by 2**bits; `low` to `high` in its unit.
+
+    Of an encoder: by how many counts it may turn from one sample to the next; what it turns is
+    scaled after that.
+    """
 
     bits: int
     least: int

@@ -30,6 +30,11 @@ RANGES: dict[str, Ranges] = {
         "load": (-1e-3, 1e-3), "U": (-12.0, 12.0), "current": (-1.0, 1.0), "speed": (-300.0, 300.0)
     },
     "khepera": _robot(""),
+    "khepera_built": {
+        **{name: (-12.0, 12.0) for name in ("Uin", "Us", "U0[1]", "U0[2]")},
+        "Fx[1]": (-2.0, 2.0), "Fx[2]": (-2.0, 2.0),
+        "m[1].motor": (-3.0, 3.0), "m[2].motor": (-3.0, 3.0),
+    },
     "khepera_plausible": _robot("robot."),
     "drive": _drive("m."),
     "drive_fig6": _drive(""),

@@ -206,6 +206,21 @@ def test_a_bad_sample_costs_the_residuals_that_see_it_only() -> None:
     assert settle is not None and waited == settle + 1
 
 
+def test_an_encoder_runs_over_and_may_not_turn_too_far() -> None:
+    fixed = written("khepera_built")
+    plain = Whole(fixed)
+    over = Whole(fixed)
+    name = "m__1__motor"
+    for k in range(700):
+        row = dict.fromkeys((x.name for x in fixed.program.knowns), 0)
+        turned = k % 4
+        far = (turned + 2**31 - 2 + 2**31) % 2**32 - 2**31
+        assert plain.step(row | {name: turned}) == over.step(row | {name: far})
+    assert all(valid for _, valid in plain.step(row | {name: turned}).values())
+    found = plain.step(row | {name: turned + fixed.samples[name].most + 1})
+    assert {n: valid for n, (_, valid) in found.items()} == {"r1": False, "r2": True, "r3": True}
+
+
 def test_the_readme_and_the_header_say_the_same() -> None:
     files = {a.path: a.text for a in compiled("dc_motor").artifacts if isinstance(a.text, str)}
     own = written("dc_motor").residuals["r1"]

@@ -38,22 +38,31 @@ class Whole:
     def __init__(self, fixed: FixedProgram) -> None:
         self.fixed = fixed
         self.values: dict[Ref, int] = {}
+        self.counted = {k.name for k in fixed.program.knowns if k.counts is not None}
+        self.last: dict[tuple[int, str], int] = {}
         self.age = [0] * len(fixed.blocks)
         self.wide = {g.state for b in fixed.blocks for g in b.guards}
 
     def step(self, samples: Mapping[str, int]) -> dict[str, tuple[int, bool]]:
         """By residual its value and whether it is valid; a sample by name."""
         fixed, found = self.fixed, {}
-        held = {n: min(max(samples[n], own.least), own.most) for n, own in fixed.samples.items()}
+        held = {n: self._held(n, x) for n, x in samples.items() if n not in self.counted}
         settle = {r.name: s for r, s in zip(fixed.program.residuals, fixed.settle, strict=True)}
         for at, block in enumerate(fixed.blocks):
             self.values |= {Ref("known", n): x for n, x in held.items()}
+            good = all(held[n] == samples[n] for n in block.knowns if n not in self.counted)
+            for n in self.counted & set(block.knowns):
+                turned = samples[n] - self.last.get((at, n), 0) if self.age[at] else 0
+                turned = (turned + WORD) % (2 * WORD) - WORD
+                self.last[at, n] = samples[n]
+                scaled = self._held(n, turned) << fixed.samples[n].bits
+                self.values[Ref("increment", n)] = scaled
+                good = good and turned == self._held(n, turned)
             for explained in block.step if self.age[at] else block.first:
                 target = explained.instruction.target
                 value = self._value(explained.instruction)
                 assert abs(value) < (2**63 if target in self.wide else WORD), target
                 self.values[target] = value
-            good = all(held[n] == samples[n] for n in block.knowns)
             good = good and all(abs(self.values[g.state]) <= g.limit for g in block.guards)
             self.age[at] = self.age[at] + 1 if good else 0
             for name in block.residuals:
@@ -61,6 +70,10 @@ class Whole:
                 assert wait is not None
                 found[name] = (value if good else 0, self.age[at] > wait)
         return found
+
+    def _held(self, name: str, value: int) -> int:
+        own = self.fixed.samples.get(name)
+        return value if own is None else min(max(value, own.least), own.most)
 
     def _value(self, one: Instruction) -> int:
         of = self.values
@@ -138,20 +151,34 @@ class Real:
         for one in self.runs:
             one.configure()
         self.begun = False
+        self.last: dict[str, float] = {}
 
     def step(self, samples: Mapping[str, float]) -> dict[str, float]:
         """By residual its value."""
         found = {}
         for block, one in zip(self.blocks, self.runs, strict=True):
             one.values |= {Ref("known", n): x for n, x in samples.items()}
+            for n, x in samples.items():
+                step = x - self.last[n] if self.begun else 0.0
+                one.values[Ref("increment", n)] = step
             one.run(block.step if self.begun else block.first)
             found |= {r: float(one.values[Ref("residual", r)]) for r in block.residuals}
-        self.begun = True
+        self.begun, self.last = True, dict(samples)
         return found
 
 
 def rows(fixed: FixedProgram, count: int, seed: int) -> Iterator[dict[str, int]]:
-    """Samples within their limits: at rest, at their ends, in jumps, and as they come."""
+    """Samples within their limits: at rest, at their ends, in jumps, and as they come.
+
+    Of an encoder that is what it turns; it has the sum of that.
+    """
+    sums = {k.name: 0 for k in fixed.program.knowns if k.counts is not None}
+    for row in _rows(fixed, count, seed):
+        sums = {n: total + row[n] for n, total in sums.items()}
+        yield row | sums
+
+
+def _rows(fixed: FixedProgram, count: int, seed: int) -> Iterator[dict[str, int]]:
     import random
 
     draw = random.Random(seed)
@@ -178,7 +205,10 @@ def largest_error(
     whole, real = Whole(fixed), Real(fixed.program)
     worst = dict.fromkeys(fixed.residuals, 0.0)
     for row in given:
-        exact = {n: math.ldexp(x, -fixed.samples[n].bits) for n, x in row.items()}
+        exact = {
+            n: x if n in whole.counted else math.ldexp(x, -fixed.samples[n].bits)
+            for n, x in row.items()
+        }
         wanted, found = real.step(exact), whole.step(row)
         for name, own in fixed.residuals.items():
             value, _ = found[name]
