@@ -56,7 +56,7 @@ class _Code:
         names = spellings(self.spelling.encoders.values(), target.words | states)
         self.encoders = {key: names[own] for key, own in self.spelling.encoders.items()}
         self.counted = {k.name for k in self.program.knowns if k.counts is not None}
-        self.wide = {g.state for b in fixed.blocks for g in b.guards}
+        self.wide = {g.state for b in fixed.blocks for g in b.guards if g.wide}
 
     def holes(self) -> dict[str, object]:
         """All of them."""

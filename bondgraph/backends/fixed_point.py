@@ -239,9 +239,10 @@ class _Scaling:
                 self.by_target.setdefault(operation.target, []).append(operation)
         self.states = [Ref("state", name) for name in block.states]
         self.integrals: frozenset[Ref] = frozenset()
+        self.wide: frozenset[Ref] = frozenset()
         self.integrals = self._not_fading()
         self._check_states()
-        self._check_integrals()
+        self.wide = self._counted()
         self.gains = self._gains()
         self._arguments = {
             ref
@@ -282,9 +283,9 @@ class _Scaling:
         for operation in procedure:
             target = operation.target
             wide = isinstance(operation, Linear) and any(
-                t.variable in self.integrals for t in operation.terms
+                t.variable in self.wide for t in operation.terms
             )
-            if target in self.integrals:
+            if target in self.wide:
                 continue
             if wide or not isinstance(operation, Linear):
                 rows[target] = {("n", target): 1.0}
@@ -314,19 +315,16 @@ class _Scaling:
             s for s in self.states if abs(rows.get(s, {}).get(("x", s), 0.0)) >= 1.0 - 1e-12
         )
 
-    def _check_integrals(self) -> None:
-        """An integral is summed in whole numbers: small ones times what is integrated."""
+    def _counted(self) -> frozenset[Ref]:
+        """The integrals that are summed in small whole numbers of what is integrated.
+
+        Nothing of such a sum is lost, and 64 bits hold it; others are rounded like any state.
+        """
+        rounded = set[Ref]()
         for operation in (*self.first, *self.step):
-            of = [r for r in (operation.target, *operands(operation)) if r in self.integrals]
-            if not of:
-                continue
             if not (isinstance(operation, Linear) and _counts(operation)):
-                what = self.docs.get(of[0], of[0].name)
-                raise Unrepresentable(
-                    f"sums an integral in a way that whole numbers do not ({what})",
-                    operation.origin,
-                    "A sensor of what is integrated leaves no integral to be had.",
-                )
+                rounded.update((operation.target, *operands(operation)))
+        return self.integrals - rounded
 
     def _gains(self) -> dict[Ref, Row]:
         """By value and atom how much of the atom it can have at most."""
@@ -386,6 +384,8 @@ class _Scaling:
             return max(abs(limits.low), abs(limits.high))
         if kind == "n":
             return self._reach(of)
+        if kind == "g":
+            return self._declared(of, None)
         raise AssertionError(kind)
 
     def _reach(self, ref: Ref) -> float:
@@ -426,7 +426,7 @@ class _Scaling:
     def _of_operation(self, operation: Operation) -> tuple[float, float]:
         """The interval that an operation makes of those of its operands."""
         if isinstance(operation, Linear):
-            if any(t.variable in self.integrals for t in operation.terms):
+            if any(t.variable in self.wide for t in operation.terms):
                 limit = self._window(operation)
                 return -limit, limit
             if any(t.variable.space == "state" for t in operation.terms):
@@ -457,7 +457,7 @@ class _Scaling:
     def _window(self, operation: Linear) -> float:
         """How far what reads an integral is looked at."""
         readers = [o for o in (*self.first, *self.step) if operation.target in operands(o)]
-        declared = [t.variable for t in operation.terms if t.variable in self.integrals]
+        declared = [t.variable for t in operation.terms if t.variable in self.wide]
         if all(isinstance(r, Call) and r.function == "near_tanh" for r in readers):
             return _TURN
         total = 0.0
@@ -489,10 +489,10 @@ class _Scaling:
             if not isinstance(operation, Linear):
                 continue
             target = operation.target
-            wide = any(t.variable in self.integrals for t in operation.terms)
-            if wide and target not in self.integrals:
+            wide = any(t.variable in self.wide for t in operation.terms)
+            if wide and target not in self.wide:
                 ends = [t.variable for t in operation.terms]
-            elif target in self.integrals:
+            elif target in self.wide:
                 ends = [target, *(t.variable for t in operation.terms)]
             elif self._own_scale(target):
                 ends = []
@@ -507,8 +507,8 @@ class _Scaling:
         """Whether a value has a scale of its own: one that no sum made."""
         return any(
             not isinstance(o, Linear)
-            or (isinstance(o, Linear) and any(t.variable in self.integrals for t in o.terms)
-                and o.target not in self.integrals)
+            or (isinstance(o, Linear) and any(t.variable in self.wide for t in o.terms)
+                and o.target not in self.wide)
             for o in self.by_target.get(ref, ())
         )  # fmt: skip
 
@@ -524,10 +524,10 @@ class _Scaling:
         }
         self.bits = _sample_bits(self.samples)
         for root, refs in members.items():
-            spans = [max(map(abs, self._span(r))) for r in refs if r not in self.integrals]
+            spans = [max(map(abs, self._span(r))) for r in refs if r not in self.wide]
             if len(spans) > 1:  # what is small beside the others has their roundings
                 self._least |= dict.fromkeys(refs, _SMALL * max(spans))
-            own = [_finest(self._reach(r)) for r in refs if r not in self.integrals]
+            own = [_finest(self._reach(r)) for r in refs if r not in self.wide]
             found = min(own, default=_FINEST) - self._lowered.get(root, 0)
             for ref in refs:
                 self.bits[ref] = found
@@ -536,8 +536,8 @@ class _Scaling:
         for operation in (*self.first, *self.step):
             if isinstance(operation, Call) and operation.function == "near_tanh":
                 self.bits[operation.target] = cubic_tanh.BITS
-            if isinstance(operation, Linear) and operation.target not in self.integrals:
-                wide = [t.variable for t in operation.terms if t.variable in self.integrals]
+            if isinstance(operation, Linear) and operation.target not in self.wide:
+                wide = [t.variable for t in operation.terms if t.variable in self.wide]
                 finest = [self.bits[ref] for ref in (operation.target, *wide)]
                 self.bits[operation.target] = min(finest) if wide else finest[0]
 
@@ -546,7 +546,7 @@ class _Scaling:
     def block(self) -> FixedBlock:
         """The block in whole numbers."""
         for ref in self.by_target:
-            if ref not in self.integrals:
+            if ref not in self.wide:
                 self._span(ref)
         for _ in range(_TRIES):
             self._scale()
@@ -567,7 +567,9 @@ class _Scaling:
             self.block_.states,
             tuple(done[0]),
             tuple(done[1]),
-            tuple(Guard(q, self._guard(q)) for q in self.states if q in self.integrals),
+            tuple(
+                Guard(q, self._guard(q), q in self.wide) for q in self.states if q in self.integrals
+            ),
         )
 
     def _guard(self, integral: Ref) -> int:
@@ -582,13 +584,13 @@ class _Scaling:
     def _instruction(self, operation: Operation) -> Instruction:
         bits, target = self.bits, operation.target
         if isinstance(operation, Linear):
-            wide = [t.variable for t in operation.terms if t.variable in self.integrals]
-            if not wide and target not in self.integrals:
+            wide = [t.variable for t in operation.terms if t.variable in self.wide]
+            if not wide and target not in self.wide:
                 return self._accumulated(operation)
             counts = tuple((int(t.number), t.variable) for t in operation.terms)
             if len({bits[ref] for _, ref in counts}) > 1:
                 raise Unrepresentable("integrates a sample as it comes", operation.origin)
-            if target in self.integrals:
+            if target in self.wide:
                 return Count(target, counts)
             shift = bits[wide[0]] - bits[target]
             limit = int(math.ldexp(self._window(operation), bits[wide[0]]))
@@ -655,12 +657,8 @@ class _Scaling:
         for product, (number, variable, _) in zip(products, rest, strict=True):
             off = abs(math.ldexp(product.value, bits[variable] - at) - number)
             error += off * self._reach(variable)
-        integrated = any(
-            target == t.variable
-            for q in self.integrals
-            for o in self.by_target[q]
-            if isinstance(o, Linear)
-            for t in o.terms
+        integrated = target in self.integrals or any(
+            target in operands(o) for q in self.integrals for o in self.by_target[q]
         )
         half = 0 if at == own else 1 << (at - own - 1) if integrated else 0
         error += 0.0 if at == own else math.ldexp(0.5 if half else 1.0, -own)
@@ -680,7 +678,7 @@ class _Scaling:
                 raise Unrepresentable(*_TOO_ROUGH)
         for instruction in instructions:
             target = instruction.target
-            if target in self.integrals:
+            if target in self.wide:
                 continue
             if isinstance(instruction, Accumulate) and not self._fits(instruction):
                 found[target] = None
@@ -748,6 +746,8 @@ class _Scaling:
                     found = found.plus(gain, Bound(self.rounding.get(atom[1], 0.0), 0.0))
                 elif atom[0] == "n":
                     found = found.plus(gain, self._error(atom[1]))
+                elif atom[0] == "g" and atom[1] != ref:
+                    found = found.plus(gain, self._error_of_integral(atom[1]))
         self._errors[ref] = found
         return found
 
@@ -757,7 +757,7 @@ class _Scaling:
         if isinstance(operation, Linear):  # of an integral
             found = unit
             for number, variable, _ in operation.terms:
-                error = self._error_of_integral(variable) if variable in self.integrals else (
+                error = self._error_of_integral(variable) if variable in self.wide else (
                     self._error(variable)
                 )
                 found = found.plus(abs(number), error)
@@ -779,6 +779,9 @@ class _Scaling:
 
     def _error_of_integral(self, integral: Ref) -> Bound:
         """What the roundings of its summands sum up to, an hour at the rate of the samples."""
+        if integral not in self.wide:
+            each_sample = self._error(integral).fixed
+            return Bound(each_sample, each_sample * 3600.0 * self.rate)
         each = [0.0, 0.0]
         for at, procedure in enumerate((self.first, self.step)):
             for operation in procedure:

@@ -99,10 +99,11 @@ class Explained(NamedTuple):
 
 
 class Guard(NamedTuple):
-    """A state of 64 bits that starts anew when it leaves -limit to limit."""
+    """An integral that starts anew when it leaves -limit to limit; a `wide` one has 64 bits."""
 
     state: Ref
     limit: int
+    wide: bool
 
 
 class FixedBlock(NamedTuple):

@@ -60,7 +60,7 @@ def refused(body: str, ranges: Ranges) -> list[tuple[str, str, str]]:
 
 @pytest.mark.parametrize("model", RANGES)
 def test_a_residual_is_as_near_to_double_as_is_said(model: str) -> None:
-    """Over samples at their limits, in jumps and at random; and not much nearer than is said."""
+    """Over samples at their limits, in jumps and at random; the bound is no empty one."""
     fixed = written(model)
     found = largest_error(fixed, list(rows(fixed, _ROWS, 1)))
     hours = _ROWS / fixed.program.rate / 3600.0

@@ -41,7 +41,7 @@ class Whole:
         self.counted = {k.name for k in fixed.program.knowns if k.counts is not None}
         self.last: dict[tuple[int, str], int] = {}
         self.age = [0] * len(fixed.blocks)
-        self.wide = {g.state for b in fixed.blocks for g in b.guards}
+        self.wide = {g.state for b in fixed.blocks for g in b.guards if g.wide}
 
     def step(self, samples: Mapping[str, int]) -> dict[str, tuple[int, bool]]:
         """By residual its value and whether it is valid; a sample by name."""
@@ -150,20 +150,21 @@ class Real:
         self.runs = [Interpreter(program) for _ in self.blocks]
         for one in self.runs:
             one.configure()
-        self.begun = False
+        self.begun = [False] * len(self.blocks)
         self.last: dict[str, float] = {}
 
     def step(self, samples: Mapping[str, float]) -> dict[str, float]:
         """By residual its value."""
         found = {}
-        for block, one in zip(self.blocks, self.runs, strict=True):
+        for at, (block, one) in enumerate(zip(self.blocks, self.runs, strict=True)):
             one.values |= {Ref("known", n): x for n, x in samples.items()}
             for n, x in samples.items():
-                step = x - self.last[n] if self.begun else 0.0
+                step = x - self.last[n] if self.begun[at] else 0.0
                 one.values[Ref("increment", n)] = step
-            one.run(block.step if self.begun else block.first)
+            one.run(block.step if self.begun[at] else block.first)
             found |= {r: float(one.values[Ref("residual", r)]) for r in block.residuals}
-        self.begun, self.last = True, dict(samples)
+            self.begun[at] = True
+        self.last = dict(samples)
         return found
 
 
@@ -210,7 +211,9 @@ def largest_error(
             for n, x in row.items()
         }
         wanted, found = real.step(exact), whole.step(row)
-        for name, own in fixed.residuals.items():
-            value, _ = found[name]
+        real.begun = [age > 0 for age in whole.age]  # an integral may have run away
+        for name in (n for b, on in zip(fixed.blocks, real.begun, strict=True) if on
+                     for n in b.residuals):  # fmt: skip
+            value, own = found[name][0], fixed.residuals[name]
             worst[name] = max(worst[name], abs(math.ldexp(value, -own.bits) - wanted[name]))
     return worst
