@@ -225,13 +225,14 @@ class _Scaling:
         samples: Mapping[str, Limits],
         ranges: Mapping[str, tuple[float, float]],
     ) -> None:
-        self.block_ = block
+        self.of = block
         self.rate = program.rate
         self.docs = {Ref("state", s.name): s.doc for s in program.states}
+        self.paths = {Ref("known", k.name): k.path for k in program.knowns}
         self.samples = samples
         self.ranges = ranges
         at_rest = {Ref("increment", name): 0.0 for name in block.knowns}
-        self.first = straight_line(block.first, {**coefficients, **at_rest})
+        self.first = straight_line(block.first, {**coefficients, **at_rest}, "start")
         self.step = straight_line(block.step, coefficients)
         self.by_target: dict[Ref, list[Operation]] = {}
         for procedure in (self.first, self.step):
@@ -259,6 +260,7 @@ class _Scaling:
         self._open: set[Ref] = set()
         self._lowered: dict[Ref, int] = {}
         self._least: dict[Ref, float] = {}
+        self._windows: dict[Ref, float] = {}
 
     # ------------------------------------------------------------------ the recursion
 
@@ -282,12 +284,9 @@ class _Scaling:
         rows: dict[Ref, Row] = {}
         for operation in procedure:
             target = operation.target
-            wide = isinstance(operation, Linear) and any(
-                t.variable in self.wide for t in operation.terms
-            )
             if target in self.wide:
                 continue
-            if wide or not isinstance(operation, Linear):
+            if self._read_integrals(operation) or not isinstance(operation, Linear):
                 rows[target] = {("n", target): 1.0}
                 yield target, rows[target]
                 continue
@@ -426,7 +425,7 @@ class _Scaling:
     def _of_operation(self, operation: Operation) -> tuple[float, float]:
         """The interval that an operation makes of those of its operands."""
         if isinstance(operation, Linear):
-            if any(t.variable in self.wide for t in operation.terms):
+            if self._read_integrals(operation):
                 limit = self._window(operation)
                 return -limit, limit
             if any(t.variable.space == "state" for t in operation.terms):
@@ -440,8 +439,10 @@ class _Scaling:
         left, right = self._allowed(operation.left), self._allowed(operation.right)
         if operation.what == "/":
             if right[0] <= 0.0 <= right[1]:
+                below = self.paths.get(operation.right)
+                what = f"by `{below}`" if below else f"in {operation.comment}"
                 raise Unrepresentable(
-                    f"divides by `{_plain(operation.right)}`, which its range does not keep from 0",
+                    f"divides {what}, which ranges do not keep from 0",
                     operation.origin,
                     "Give ranges of the signals in it that do not hold 0.",
                 )
@@ -456,6 +457,12 @@ class _Scaling:
 
     def _window(self, operation: Linear) -> float:
         """How far what reads an integral is looked at."""
+        found = self._windows.get(operation.target)
+        if found is None:
+            found = self._windows[operation.target] = self._new_window(operation)
+        return found
+
+    def _new_window(self, operation: Linear) -> float:
         readers = [o for o in (*self.first, *self.step) if operation.target in operands(o)]
         declared = [t.variable for t in operation.terms if t.variable in self.wide]
         if all(isinstance(r, Call) and r.function == "near_tanh" for r in readers):
@@ -489,8 +496,7 @@ class _Scaling:
             if not isinstance(operation, Linear):
                 continue
             target = operation.target
-            wide = any(t.variable in self.wide for t in operation.terms)
-            if wide and target not in self.wide:
+            if self._read_integrals(operation):
                 ends = [t.variable for t in operation.terms]
             elif target in self.wide:
                 ends = [target, *(t.variable for t in operation.terms)]
@@ -506,11 +512,9 @@ class _Scaling:
     def _own_scale(self, ref: Ref) -> bool:
         """Whether a value has a scale of its own: one that no sum made."""
         return any(
-            not isinstance(o, Linear)
-            or (isinstance(o, Linear) and any(t.variable in self.wide for t in o.terms)
-                and o.target not in self.wide)
+            not isinstance(o, Linear) or bool(self._read_integrals(o))
             for o in self.by_target.get(ref, ())
-        )  # fmt: skip
+        )
 
     def _scale(self) -> None:
         """The finest scale of each group at which all its values fit."""
@@ -523,12 +527,19 @@ class _Scaling:
             if isinstance(o, Call) and o.function == "near_tanh"
         }
         self.bits = _sample_bits(self.samples)
+        widest: dict[Ref, int] = {}  # what 64 bits have room for
+        for operation in (*self.first, *self.step):
+            for integral in self._read_integrals(operation):
+                assert isinstance(operation, Linear)
+                room = _WIDE - math.frexp(self._window(operation))[1]
+                root = self.groups.find(integral)
+                widest[root] = min(widest.get(root, room), room)
         for root, refs in members.items():
             spans = [max(map(abs, self._span(r))) for r in refs if r not in self.wide]
             if len(spans) > 1:  # what is small beside the others has their roundings
                 self._least |= dict.fromkeys(refs, _SMALL * max(spans))
             own = [_finest(self._reach(r)) for r in refs if r not in self.wide]
-            found = min(own, default=_FINEST) - self._lowered.get(root, 0)
+            found = min([*own, widest.get(root, _FINEST)]) - self._lowered.get(root, 0)
             for ref in refs:
                 self.bits[ref] = found
         for ref in takes:
@@ -536,10 +547,15 @@ class _Scaling:
         for operation in (*self.first, *self.step):
             if isinstance(operation, Call) and operation.function == "near_tanh":
                 self.bits[operation.target] = cubic_tanh.BITS
-            if isinstance(operation, Linear) and operation.target not in self.wide:
-                wide = [t.variable for t in operation.terms if t.variable in self.wide]
-                finest = [self.bits[ref] for ref in (operation.target, *wide)]
-                self.bits[operation.target] = min(finest) if wide else finest[0]
+            for integral in self._read_integrals(operation):
+                finest = self.bits[operation.target], self.bits[integral]
+                self.bits[operation.target] = min(finest)
+
+    def _read_integrals(self, operation: Operation) -> list[Ref]:
+        """The integrals of 64 bits that a sum makes a number of 32 of."""
+        if operation.target in self.wide:
+            return []
+        return [ref for ref in operands(operation) if ref in self.wide]
 
     # ------------------------------------------------------------------- instructions
 
@@ -561,10 +577,10 @@ class _Scaling:
         else:
             raise Unrepresentable("has sums that no scale keeps from overflow")
         return FixedBlock(
-            self.block_.name,
-            self.block_.residuals,
-            self.block_.knowns,
-            self.block_.states,
+            self.of.name,
+            self.of.residuals,
+            self.of.knowns,
+            self.of.states,
             tuple(done[0]),
             tuple(done[1]),
             tuple(
@@ -584,7 +600,7 @@ class _Scaling:
     def _instruction(self, operation: Operation) -> Instruction:
         bits, target = self.bits, operation.target
         if isinstance(operation, Linear):
-            wide = [t.variable for t in operation.terms if t.variable in self.wide]
+            wide = self._read_integrals(operation)
             if not wide and target not in self.wide:
                 return self._accumulated(operation)
             counts = tuple((int(t.number), t.variable) for t in operation.terms)
@@ -816,10 +832,6 @@ def _counts(operation: Linear) -> bool:
 
 def _root(value: float) -> float:
     return math.copysign(math.sqrt(abs(value)), value)
-
-
-def _plain(ref: Ref) -> str:
-    return ref.name.rstrip("'")
 
 
 def _finest(reach: float) -> int:

@@ -93,9 +93,11 @@ class _Sum(NamedTuple):
 
 
 def straight_line(
-    statements: Sequence[Assignment], coefficients: Mapping[Ref, float]
+    statements: Sequence[Assignment], coefficients: Mapping[Ref, float], part: str = "part"
 ) -> tuple[Operation, ...]:
     """The operations in order; raises `Unrepresentable` for what they have no form for.
+
+    Intermediate values that have no name are called `part` with a number.
 
     >>> x, y, b = Ref("known", "x"), Ref("local", "y"), Ref("coef", "b")
     >>> value = Sum(((True, Product((Const(2.0), b, x))), (False, x)))
@@ -103,7 +105,7 @@ def straight_line(
     >>> one.terms
     (Term(number=5.0, variable=Ref(space='known', name='x', order=0), name='b'),)
     """
-    return tuple(_read(_shared(_Writer(coefficients).run(statements))))
+    return tuple(_read(_shared(_Writer(coefficients, part).run(statements))))
 
 
 def operands(operation: Operation) -> tuple[Ref, ...]:
@@ -118,7 +120,8 @@ def operands(operation: Operation) -> tuple[Ref, ...]:
 class _Writer:
     """Makes operations of statements; `known` has what a name stands for so far."""
 
-    def __init__(self, coefficients: Mapping[Ref, float]) -> None:
+    def __init__(self, coefficients: Mapping[Ref, float], part: str) -> None:
+        self.part = part
         self.known: dict[Ref, _Sum] = {
             ref: _Sum({}, number, ref.name) for ref, number in coefficients.items()
         }
@@ -256,7 +259,7 @@ class _Writer:
 
     def _free(self) -> Ref:
         count = sum(s.target.name[-1] == "'" for s in self.found)
-        return Ref("local", f"part{count + 1}'")
+        return Ref("local", f"{self.part}{count + 1}'")
 
 
 def _shared(operations: Sequence[Operation]) -> list[Operation]:
