@@ -64,7 +64,6 @@ class _Code:
         kinds = {
             type(e.instruction) for b in self.fixed.blocks for e in (*b.first, *b.step)
         }
-        whole = len(blocks) > 0
         return {
             "stem": self.about.stem,
             "own": "",
@@ -102,7 +101,7 @@ class _Code:
             "one": 1 << cubic_tanh.BITS,
             "tanh_bound": f"{cubic_tanh.BOUND:g}",
             **self._signals(),
-            **self._counting(whole),
+            **self._counting(),
         }
 
     def _about(self) -> list[str]:
@@ -231,7 +230,7 @@ class _Code:
             ],
         }
 
-    def _counting(self, whole: bool) -> dict[str, object]:
+    def _counting(self) -> dict[str, object]:
         places = {r: at for at, b in enumerate(self.fixed.blocks) for r in b.residuals}
         order = {r.name: at for at, r in enumerate(self.program.residuals)}
         computed = [name for name in order if name in places]
@@ -248,7 +247,7 @@ class _Code:
             "computed": len(computed),
             "good": good,
             "guards": [g for b in self.fixed.blocks for g in self._guards(b)],
-            "usual": whole and len(computed) == len(order),
+            "usual": len(computed) == len(order),
             "unavailable": [
                 self.spelling.prefix + self.spelling.numbers[name]
                 for name in order
@@ -321,9 +320,10 @@ class _Code:
         found = self._turned(block, free, procedure is block.first)
         last = ""
         about = block.residuals[0] + ": "
+        said = {r.text for r in self.program.residuals}  # above the function
         for explained in procedure:
             comment = explained.comment.removeprefix(about)
-            if comment and comment != last:
+            if comment and comment != last and explained.comment not in said:
                 found += [""] * bool(found) + listing.comment(comment, self.target, 4)
             last = comment or last
             found += self._statement(explained.instruction, spell)

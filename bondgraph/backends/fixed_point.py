@@ -184,6 +184,8 @@ def _check_program(part: Program) -> None:
     ):
         if there:
             raise Unrepresentable(what)
+    if not blocks(part):
+        raise Unrepresentable("are none that `step` ever has")
 
 
 def _limits(known: Known, ranges: Mapping[str, tuple[float, float]]) -> Limits:
