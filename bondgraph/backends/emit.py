@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from bondgraph.backends import c, python
+from bondgraph.backends import c, fixed_c, python
 from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.facts import facts
 from bondgraph.backends.golden import Golden, golden
@@ -12,6 +12,7 @@ from bondgraph.backends.readme import readme
 from bondgraph.backends.target import Target, load
 from bondgraph.backends.templates import fill
 from bondgraph.ir.artifact import Artifact
+from bondgraph.ir.fixed_program import FixedProgram
 from bondgraph.ir.program import Program
 
 _LANGUAGES = {"c": c, "python": python}
@@ -26,11 +27,13 @@ def emit(
     thresholds: Program | None = None,
     tuned: Tuned = UNTUNED,
     extras: Iterable[str] = (),
+    fixed: FixedProgram | None = None,
 ) -> tuple[Artifact, ...]:
     """The files of `program` in the `targets` (`c`, `python`), and a README about them.
 
     Adaptive `thresholds` are in the same files, limits that were `tuned` go with `diagnose`.
-    `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`. The
+    `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`. With
+    `fixed`, C is in whole numbers: residuals only, without thresholds, `diagnose` and extras. The
     same program gives the same bytes. Raises ValueError for a target or an extra that is not there.
     """
     wanted = tuple(name for name in EXTRAS if name in extras)
@@ -40,13 +43,26 @@ def emit(
     found: dict[str, str] = {}
     examples: dict[str, str] = {}
     for name in dict.fromkeys(targets):
-        files = _files(program, load(name), thresholds, tuned, wanted)
+        target = load(name)
+        if fixed is not None and target.fixed:
+            found |= _whole_numbers(fixed, target)
+            continue
+        files = _files(program, target, thresholds, tuned, wanted)
         found |= files
         if "example" in wanted:
             examples[name] = files[load(name).extras["example"][0][1]]
-    holes = readme(program, about, tuple(dict.fromkeys(targets)), examples, thresholds, wanted)
+    holes = readme(
+        program, about, tuple(dict.fromkeys(targets)), examples, thresholds, wanted, fixed
+    )
     found["README.md"] = fill("README.md.j2", holes)
     return tuple(Artifact(path, text) for path, text in found.items())
+
+
+def _whole_numbers(fixed: FixedProgram, target: Target) -> dict[str, str]:
+    """The code of a program in one language, in whole numbers."""
+    holes = fixed_c.files(fixed, target) | {f"has_{name}": False for name in EXTRAS}
+    file = facts(fixed.program).file
+    return {path.format(file=file, of=""): fill(name, holes) for name, path in target.fixed}
 
 
 def _files(

@@ -1,10 +1,17 @@
-/* main.c: counts the instructions of a step on a Cortex-M4F in qemu, by its clock of one ns each. */
+/* main.c: counts the instructions of a step on a Cortex-M in qemu, by its clock of one ns each. */
 #include <stdint.h>
 
 #include "khepera.h"
 
 #define STEPS 10000
 #define SETTLED 2000
+
+/* A sample: in whole numbers it is times a power of two. */
+#ifdef FIXED
+#define OF(name, x) ((int32_t)((x) * (float)(1 << KHEPERA_BITS_##name)))
+#else
+#define OF(name, x) (x)
+#endif
 
 /* The system timer, which counts down at the clock of the board, and what makes the FPU work. */
 #define TIMER ((volatile uint32_t *)0xE000E010u)
@@ -25,7 +32,9 @@ void reset(void)
 {
     volatile uint32_t *word;
 
+#ifndef FIXED
     COPROCESSORS |= 0xFu << 20;
+#endif
     for (word = &_sbss; word < &_ebss; ++word) {
         *word = 0u;
     }
@@ -82,10 +91,10 @@ int main(void)
     int k;
 
     khepera_reset(&memory);
-    samples.U0__1 = samples.U0__2 = 3.0f;
-    samples.m__1__me__we = samples.m__2__me__we = 40.0f;
-    samples.m__1__wh__ws = samples.m__2__wh__ws = 1.6f;
-    samples.Uin = samples.Us = 5.0f;
+    samples.U0__1 = samples.U0__2 = OF(U0__1, 3.0f);
+    samples.m__1__me__we = samples.m__2__me__we = OF(m__1__me__we, 40.0f);
+    samples.m__1__wh__ws = samples.m__2__wh__ws = OF(m__1__wh__ws, 1.6f);
+    samples.Uin = samples.Us = OF(Uin, 5.0f);
     for (k = 0; k < SETTLED; ++k) {
         khepera_step(&khepera_nominal_coefficients, &memory, &samples, &residuals);
     }
