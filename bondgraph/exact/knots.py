@@ -8,20 +8,20 @@ Nonlinear Problems, 2004, section 3.3).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import factorial
-from typing import TYPE_CHECKING
+from random import Random
+from typing import Protocol
 
 from flint import arb, arb_mat, ctx
 
 from bondgraph.exact.evaluate import evaluate
+from bondgraph.exact.forms import Form
 from bondgraph.exact.known import KnownSample, gradient
-from bondgraph.exact.plant_equations import Equation, reach
-from bondgraph.field.numbers import Number, Undefined
+from bondgraph.exact.plant_equations import Equation, Setting, reach
+from bondgraph.field.numbers import Number, Numbers, Undefined
 from bondgraph.field.sparse import CONSTANT, Row
-
-if TYPE_CHECKING:
-    from bondgraph.exact.point import Point
+from bondgraph.ir.expr import Expr
 
 _STEPS = 200  # of Newton's method, before another random point is better
 _SHORTEST = arb(2) ** -14  # share of a step below which there is no way on
@@ -29,7 +29,24 @@ _CLOSE = arb(2) ** -160  # of the last step to the point: each one after it squa
 _AFTER = 2  # steps after it, so that what is left is rounding
 
 
-def together(point: Point, equations: Sequence[Equation], stride: int) -> dict[int, Number]:
+class Begun(Protocol):
+    """A point of which the linear equations are satisfied, see `bondgraph.exact.point.Point`."""
+
+    place: Mapping[Expr, tuple[int, int]]
+    setting: Setting
+    numbers: Numbers
+    random: Random
+
+    def row(self, form: Form) -> Row:
+        """The value of a form, in columns."""
+        ...
+
+    def reduce(self, row: Row) -> Row:
+        """The row in columns that are not determined by others."""
+        ...
+
+
+def together(point: Begun, equations: Sequence[Equation], stride: int) -> dict[int, Number]:
     """Values of the open columns at which these laws hold, in balls; raises `Undefined`."""
     laws = _Laws(point, equations, stride)
     x = [point.numbers.any(point.random) for _ in laws.columns]
@@ -76,7 +93,7 @@ def _norm(x: Sequence[Number]) -> Number:
 class _Laws:
     """Laws as functions of what is open, with their slopes."""
 
-    def __init__(self, point: Point, equations: Sequence[Equation], stride: int) -> None:
+    def __init__(self, point: Begun, equations: Sequence[Equation], stride: int) -> None:
         self._point = point
         self._stride = stride
         self._laws = []
