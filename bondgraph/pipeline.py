@@ -87,7 +87,7 @@ class Options(NamedTuple):
     pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
     `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
-    `extras` are files beside the code: `tests`, `exact`, `example`, each in a folder of its own.
+    `extras` are files beside the code: `tests`, `exact`, `example`, `qemu`, each in its own folder.
     With `libm` step calls tanh of the mathematical library, else one that is 1e-8 near it.
     """
 

@@ -13,11 +13,12 @@ from bondgraph.backends.target import Target, load
 from bondgraph.backends.templates import fill
 from bondgraph.ir.artifact import Artifact
 from bondgraph.ir.program import Program
+from bondgraph.text.diagnostic import Trouble
 
 _LANGUAGES = {"c": c, "python": python}
 
 #: What there is beside the code, each in a folder of its own.
-EXTRAS = ("tests", "exact", "example")
+EXTRAS = ("tests", "exact", "example", "qemu")
 
 
 def emit(
@@ -30,12 +31,16 @@ def emit(
     """The files of `program` in the `targets` (`c`, `python`), and a README about them.
 
     Adaptive `thresholds` are in the same files, limits that were `tuned` go with `diagnose`.
-    `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`. The
-    same program gives the same bytes. Raises ValueError for a target or an extra that is not there.
+    `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`, and
+    what a board of `qemu` needs to run it. The same program gives the same bytes. Raises ValueError
+    for a target or an extra that is not there, Trouble for an extra that none of the targets has.
     """
     wanted = tuple(name for name in EXTRAS if name in extras)
     if unknown := [name for name in extras if name not in EXTRAS]:
         raise ValueError(f"nothing extra is called {unknown[0]!r}; there are {', '.join(EXTRAS)}")
+    for name in wanted:
+        if not any(name in load(target).extras for target in targets):
+            raise Trouble(f"{name} goes with code in C: ask for the target c, too")
     about = facts(program)
     found: dict[str, str] = {}
     examples: dict[str, str] = {}
@@ -69,7 +74,7 @@ def _files(
     add(target.files, holes, "")
     for name in extras:
         own = holes | language.exact(program, target) if name == "exact" else holes
-        add(target.extras[name], own, "")
+        add(target.extras.get(name, ()), own, "")
     if "tests" in extras and thresholds is not None:
         own = language.tests(thresholds, program, target, golden(thresholds), vectors)
         add(target.extras["tests"], holes | own | {"has_exact": False}, "_thresholds")

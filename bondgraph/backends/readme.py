@@ -11,6 +11,7 @@ from bondgraph.backends.facts import Facts
 from bondgraph.backends.identifiers import identifier, snake
 from bondgraph.backends.nominal_coefficients import nominal
 from bondgraph.backends.parts import step_part
+from bondgraph.backends.target import load
 from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
 from bondgraph.text.numerals import joined
 
@@ -158,6 +159,15 @@ def _parameters(params: Sequence[Field]) -> list[str]:
     return _table(("parameter", "unit", "value in the model", "meaning"), rows)
 
 
+#: What there is beside the code, where it was asked for.
+_FURTHER = {
+    "tests": ("`tests/`", "whether the code gives what it must, on your machine"),
+    "exact": ("`exact/`", "the residuals of exact derivatives, for simulators"),
+    "example": ("`example/`", "a program to start from"),
+    "qemu": ("`qemu/`", "what the example needs to run on a Cortex-M4F in qemu"),
+}
+
+
 def _file_list(file: str, targets: Sequence[str], extras: Sequence[str]) -> list[str]:
     """What is in the folder."""
     rows = []
@@ -166,14 +176,10 @@ def _file_list(file: str, targets: Sequence[str], extras: Sequence[str]) -> list
         rows.append(("`CMakeLists.txt`", "the library, alone or in another project"))
     if "python" in targets:
         rows.append((f"`{file}.py`", "the same in Python 3.11, with the same digits"))
-    further = {
-        "tests": ("`tests/`", "whether the code gives what it must, on your machine"),
-        "exact": ("`exact/`", "the residuals of exact derivatives, for simulators"),
-        "example": ("`example/`", "a program to start from"),
-    }
-    rows += [further[name] for name in extras]
+    there = [name for name in _FURTHER if any(name in load(t).extras for t in targets)]
+    rows += [_FURTHER[name] for name in there if name in extras]
     found = _table(("file", "what it is"), rows)
-    left = [name for name in further if name not in extras]
+    left = [name for name in there if name not in extras]
     if left:
         found += ["", f"`bondgraph compile --with {','.join(left)}` writes more."]
     return found

@@ -76,8 +76,8 @@ def arguments(parser: ArgumentParser) -> None:
         type=_extras,
         action="extend",
         default=[],
-        help="write more: tests, exact, example, separated by commas, each in a folder of its own;"
-        " may be repeated",
+        help="write more: tests, exact, example, qemu, separated by commas, each in a folder of its"
+        " own; may be repeated",
     )
     parser.add_argument(
         "--libm",

@@ -13,6 +13,7 @@ from bondgraph.backends.target import load, targets
 from bondgraph.backends.templates import codegen
 from bondgraph.ir.program import Field, ResidualInfo
 from bondgraph.pipeline import Compilation
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.source import Source
 from tests.unit.backends import programs
 
@@ -32,6 +33,8 @@ def test_few_files_and_more_where_asked_for() -> None:
         "exact/motor_exact.py",
         "example/example.c",
         "example/example.py",
+        "qemu/link.ld",
+        "qemu/start.c",
         "tests/golden.h",
         "tests/selftest.c",
         "tests/selftest.py",
@@ -42,6 +45,8 @@ def test_few_files_and_more_where_asked_for() -> None:
 def test_an_unknown_extra_is_refused_by_name() -> None:
     with pytest.raises(ValueError, match=r"'poem'; there are tests, exact, example"):
         emit(programs.motor(), ("c",), extras=("poem",))
+    with pytest.raises(Trouble, match="qemu goes with code in C"):
+        emit(programs.motor(), ("python",), extras=("qemu", "example"))
 
 
 def test_an_unknown_target_is_refused_by_name() -> None:
