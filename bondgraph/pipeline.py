@@ -64,7 +64,7 @@ Form = Literal["derivative", "observer"] | tuple[str, ...]
 _WATCHED = 200
 
 #: Options that change numbers of the residual program only, and the stages before it.
-_LATE = frozenset({"rate", "bandwidth", "targets", "extras", "libm"})
+_LATE = frozenset({"rate", "bandwidth", "targets", "extras", "libm", "costs"})
 _EARLY = frozenset(
     "syntax graph integral derivative equations structure reduced _plant _analysis _shown"
     " verification observers".split()
@@ -87,8 +87,10 @@ class Options(NamedTuple):
     pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
     `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
-    `extras` are files beside the code: `tests`, `exact`, `example`, `qemu`, each in its own folder.
+    `extras` are files beside the code: `tests`, `exact`, `example`, `qemu`, `zephyr`, `espidf`,
+    `arduino`, `ros2`.
     With `libm` step calls tanh of the mathematical library, else one that is 1e-8 near it.
+    With `costs` the README says what the C costs on each core whose compiler is here.
     """
 
     rate: float = 1000.0
@@ -105,6 +107,7 @@ class Options(NamedTuple):
     tuning: Tuning | None = None
     extras: tuple[str, ...] = ()
     libm: bool = False
+    costs: bool = False
 
 
 if TYPE_CHECKING:
@@ -126,6 +129,7 @@ if TYPE_CHECKING:
         tuning: Tuning | None
         extras: tuple[str, ...]
         libm: bool
+        costs: bool
 
 
 class Compilation:
@@ -877,7 +881,7 @@ class Compilation:
         from bondgraph.backends.emit import emit
 
         languages = tuple(name for name in targets if name != "fmu")
-        code = self.program, languages, self._bounds, self._tuned, extras
+        code = self.program, languages, self._bounds, self._tuned, extras, self.options.costs
         found = emit(*code) if languages else ()
         return (*found, *self._fmus) if "fmu" in targets else found
 
@@ -995,7 +999,7 @@ def compile(
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
     `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`,
-    `parameters`, `offsets`, `extras`, `libm`.
+    `parameters`, `offsets`, `extras`, `libm`, `costs`.
     Nothing is computed before a stage is asked for. Raises `CompileError` if the file cannot be
     read, TypeError for an unknown option, ValueError for a number that is not positive.
 

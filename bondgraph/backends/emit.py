@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from bondgraph.backends import c, python
+from bondgraph.backends.costs import Cost, costs, table
 from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.facts import facts
 from bondgraph.backends.golden import Golden, golden
@@ -17,8 +18,8 @@ from bondgraph.text.diagnostic import Trouble
 
 _LANGUAGES = {"c": c, "python": python}
 
-#: What there is beside the code, each in a folder of its own.
-EXTRAS = ("tests", "exact", "example", "qemu")
+#: What there is beside the code, where it is asked for.
+EXTRAS = ("tests", "exact", "example", "qemu", "zephyr", "espidf", "arduino", "ros2")
 
 
 def emit(
@@ -27,13 +28,17 @@ def emit(
     thresholds: Program | None = None,
     tuned: Tuned = UNTUNED,
     extras: Iterable[str] = (),
+    measured: bool = False,
 ) -> tuple[Artifact, ...]:
     """The files of `program` in the `targets` (`c`, `python`), and a README about them.
 
     Adaptive `thresholds` are in the same files, limits that were `tuned` go with `diagnose`.
-    `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`, and
-    what a board of `qemu` needs to run it. The same program gives the same bytes. Raises ValueError
-    for a target or an extra that is not there, Trouble for an extra that none of the targets has.
+    `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`,
+    what a board of `qemu` needs to run it, and what makes the folder a module of `zephyr`, a
+    component of ESP-IDF, a library for `arduino`, a node of `ros2`. The same program gives the same
+    bytes, but for the costs of the C, which are `measured` with the tools that are here. Raises
+    ValueError for a target or an extra that is not there, Trouble for an extra that none of the
+    targets has, and where there is nothing to measure with.
     """
     wanted = tuple(name for name in EXTRAS if name in extras)
     if unknown := [name for name in extras if name not in EXTRAS]:
@@ -50,6 +55,7 @@ def emit(
         if "example" in wanted:
             examples[name] = files[load(name).extras["example"][0][1]]
     holes = readme(program, about, tuple(dict.fromkeys(targets)), examples, thresholds, wanted)
+    holes["costs"] = table(_costs(program, tuned)) if measured and "c" in targets else {}
     found["README.md"] = fill("README.md.j2", holes)
     return tuple(Artifact(path, text) for path, text in found.items())
 
@@ -79,6 +85,14 @@ def _files(
         own = language.tests(thresholds, program, target, golden(thresholds), vectors)
         add(target.extras["tests"], holes | own | {"has_exact": False}, "_thresholds")
     return found
+
+
+def _costs(program: Program, tuned: Tuned) -> tuple[Cost, ...]:
+    """What the C without thresholds costs here."""
+    target, about = load("c"), facts(program)
+    files = _files(program, target, None, tuned, ("tests",))
+    holes = c.files(program, target, golden(program), tuned)
+    return costs(files, about.stem, about.file, holes)
 
 
 def _untested(program: Program) -> Golden:

@@ -165,6 +165,13 @@ _FURTHER = {
     "exact": ("`exact/`", "the residuals of exact derivatives, for simulators"),
     "example": ("`example/`", "a program to start from"),
     "qemu": ("`qemu/`", "what the example needs to run on a Cortex-M4F in qemu"),
+    "zephyr": ("`zephyr/`", "this folder as a module of Zephyr"),
+    "espidf": ("`idf_component.yml`, `Kconfig`", "this folder as a component of ESP-IDF"),
+    "arduino": (
+        "`library.properties`, `library.json`, `examples/`",
+        "this folder as a library for Arduino and PlatformIO, with a sketch",
+    ),
+    "ros2": ("`ros2/`", "a node of ROS 2: samples in, diagnostics out"),
 }
 
 
@@ -179,9 +186,9 @@ def _file_list(file: str, targets: Sequence[str], extras: Sequence[str]) -> list
     there = [name for name in _FURTHER if any(name in load(t).extras for t in targets)]
     rows += [_FURTHER[name] for name in there if name in extras]
     found = _table(("file", "what it is"), rows)
-    left = [name for name in there if name not in extras]
-    if left:
-        found += ["", f"`bondgraph compile --with {','.join(left)}` writes more."]
+    if len(there) > len(extras):
+        more = "`bondgraph compile --with` writes more: `bondgraph compile --help` says what."
+        found += ["", more]
     return found
 
 

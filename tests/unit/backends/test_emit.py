@@ -26,18 +26,29 @@ def test_few_files_and_more_where_asked_for() -> None:
     few = ["motor.h", "motor.c", "CMakeLists.txt", "motor.py", "README.md"]
     assert [a.path for a in emit(programs.motor(), ("c", "python"))] == few
     every = [a.path for a in emit(programs.motor(), ("c", "python"), extras=EXTRAS)]
-    assert [path for path in every if "/" not in path] == few
-    assert sorted(path for path in every if "/" in path) == [
+    assert [path for path in every if path in few] == few
+    assert sorted(path for path in every if path not in few) == [
+        "Kconfig",
         "exact/motor_exact.c",
         "exact/motor_exact.h",
         "exact/motor_exact.py",
         "example/example.c",
         "example/example.py",
+        "examples/motor_watch/motor_watch.ino",
+        "idf_component.yml",
+        "library.json",
+        "library.properties",
         "qemu/link.ld",
         "qemu/start.c",
+        "ros2/CMakeLists.txt",
+        "ros2/node.cpp",
+        "ros2/package.xml",
         "tests/golden.h",
         "tests/selftest.c",
         "tests/selftest.py",
+        "zephyr/CMakeLists.txt",
+        "zephyr/Kconfig",
+        "zephyr/module.yml",
     ]
     assert [a.path for a in emit(programs.motor(), ("python",))][-1] == "README.md"
 
