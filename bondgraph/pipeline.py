@@ -88,7 +88,7 @@ class Options(NamedTuple):
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
     `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
     `extras` are files beside the code: `tests`, `exact`, `example`, `qemu`, `zephyr`, `espidf`,
-    `arduino`, `ros2`.
+    `arduino`, `ros2`, `misra`.
     With `libm` step calls tanh of the mathematical library, else one that is 1e-8 near it.
     With `costs` the README says what the C costs on each core whose compiler is here.
     """

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from bondgraph.backends import c, python
 from bondgraph.backends.costs import Cost, costs, table
 from bondgraph.backends.decision import UNTUNED, Tuned
+from bondgraph.backends.deviations import record
 from bondgraph.backends.facts import facts
 from bondgraph.backends.golden import Golden, golden
 from bondgraph.backends.readme import readme
@@ -19,7 +20,7 @@ from bondgraph.text.diagnostic import Trouble
 _LANGUAGES = {"c": c, "python": python}
 
 #: What there is beside the code, where it is asked for.
-EXTRAS = ("tests", "exact", "example", "qemu", "zephyr", "espidf", "arduino", "ros2")
+EXTRAS = ("tests", "exact", "example", "qemu", "zephyr", "espidf", "arduino", "ros2", "misra")
 
 
 def emit(
@@ -34,11 +35,12 @@ def emit(
 
     Adaptive `thresholds` are in the same files, limits that were `tuned` go with `diagnose`.
     `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`,
-    what a board of `qemu` needs to run it, and what makes the folder a module of `zephyr`, a
-    component of ESP-IDF, a library for `arduino`, a node of `ros2`. The same program gives the same
-    bytes, but for the costs of the C, which are `measured` with the tools that are here. Raises
-    ValueError for a target or an extra that is not there, Trouble for an extra that none of the
-    targets has, and where there is nothing to measure with.
+    what a board of `qemu` needs to run it, what makes the folder a module of `zephyr`, a
+    component of ESP-IDF, a library for `arduino`, a node of `ros2`, and a record of deviations from
+    the rules of `misra`. The same program gives the same bytes, but for the costs of the C, which
+    are `measured` with the tools that are here. Raises ValueError for a target or an extra that is
+    not there, Trouble for an extra that none of the targets has, and where there is nothing to
+    measure with.
     """
     wanted = tuple(name for name in EXTRAS if name in extras)
     if unknown := [name for name in extras if name not in EXTRAS]:
@@ -80,6 +82,8 @@ def _files(
     add(target.files, holes, "")
     for name in extras:
         own = holes | language.exact(program, target) if name == "exact" else holes
+        if name == "misra" and name in target.extras:
+            own = holes | record(found)
         add(target.extras.get(name, ()), own, "")
     if "tests" in extras and thresholds is not None:
         own = language.tests(thresholds, program, target, golden(thresholds), vectors)

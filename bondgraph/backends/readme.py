@@ -172,6 +172,7 @@ _FURTHER = {
         "this folder as a library for Arduino and PlatformIO, with a sketch",
     ),
     "ros2": ("`ros2/`", "a node of ROS 2: samples in, diagnostics out"),
+    "misra": ("`MISRA.md`", "which rules of MISRA C:2012 the C does not keep, where and why"),
 }
 
 

@@ -77,7 +77,8 @@ def arguments(parser: ArgumentParser) -> None:
         action="extend",
         default=[],
         help="write more, separated by commas: tests, exact, example, qemu (a board to run it on),"
-        " zephyr, espidf, arduino, ros2 (what these build systems need); may be repeated",
+        " zephyr, espidf, arduino, ros2 (what these build systems need), misra (deviations from its"
+        " rules); may be repeated",
     )
     parser.add_argument(
         "--libm",
