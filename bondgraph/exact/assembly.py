@@ -156,8 +156,7 @@ class _Builder:
             laws += [(number, self.flat(number, law.zero)) for law in node.laws]
             for port in node.ports:
                 if port.state is not None:
-                    value = port.flow if node.kind == "C" else port.effort
-                    rates.append(Rate(number, self.fresh(port.state), value))
+                    rates.append(Rate(number, self.fresh(port.state), port.rate))
         for item in graph.integrals:
             rates.append(Rate(-1, self.fresh(item.symbol), self.flat(-1, item.integrand)))
         reads = [s.reads for s in graph.sensors]

@@ -87,6 +87,13 @@ ROWS = [
     Row(
         "Elements", "C field, mixed causality (condenser microphone)", "electrical, acoustic", "mic"
     ),
+    Row("Elements", "IC field: magnet and ball", "electrical, translation", "solenoid"),
+    Row(
+        "Elements",
+        "IC field: reluctance motor, its flux at the start not known",
+        "electrical, rotation",
+        "reluctance",
+    ),
     Row("Elements", "C field of mass and energy of a gas, inverted", "thermofluid", "gas_tank"),
     Row(
         "Elements",

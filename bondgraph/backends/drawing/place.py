@@ -28,7 +28,7 @@ _SIDES = {
 }
 _BETWEEN = tuple(22.5 + a for a in _COMPASS)
 _FINE = tuple(11.25 + a for a in sorted(_COMPASS + _BETWEEN))
-_RANK = {"Se": 0, "Sf": 0, "I": 1, "R": 3, "C": 2, "De": 4, "Df": 4}
+_RANK = {"Se": 0, "Sf": 0, "I": 1, "IC": 1, "R": 3, "C": 2, "De": 4, "Df": 4}
 
 
 class Wire(NamedTuple):

@@ -123,7 +123,7 @@ class _Builder:
             self.write("law", node.path, self.own(law.zero), number, law.origin)
         for port in node.ports:
             if port.state is not None:
-                rate = self.own(port.flow if node.kind == "C" else port.effort)
+                rate = self.own(port.rate)
                 zero = self.pool.sub(self.pool.der(port.state), rate)
                 self.write(
                     "state", node.path, zero, number, node.origin, port.state, rate, port.initial
