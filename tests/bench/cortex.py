@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 import bondgraph
+from bondgraph.backends.templates import codegen, fill
 
 ROOT = Path(__file__).parents[2]
 BOARD = Path(__file__).parent / "cortex_m4"
-STEPS, CLOCK = 10_000, 40  # as in main.c; ns, and so instructions, of a tick of the timer
+STEPS = 10_000  # as in main.c
 TOOLS = ("arm-none-eabi-gcc", "arm-none-eabi-nm", "qemu-system-arm")
 _CORE = "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard".split()
 _LINK = "-nostartfiles --specs=nano.specs --specs=nosys.specs -Wl,--gc-sections".split()
@@ -41,8 +42,10 @@ def measured() -> OnBoard:
         bondgraph.compile(ROOT / "models" / "khepera.bg").write(folder, targets=["c"])
         code = ["-DKHEPERA_FLOAT", "-DKHEPERA_NO_THRESHOLDS", f"-I{folder}"]
         flags = [*_CORE, "-O2", "-ffunction-sections", "-fdata-sections", *code]
-        files = [str(BOARD / "main.c"), str(folder / "khepera.c")]
-        script, image = ["-T", str(BOARD / "link.ld")], str(folder / "image.elf")
+        board = codegen() / "c" / "costs" / "board.c"
+        files = [str(BOARD / "main.c"), str(board), str(folder / "khepera.c")]
+        (folder / "link.ld").write_text(fill("c/qemu/link.ld.j2", {}), encoding="utf-8")
+        script, image = ["-T", str(folder / "link.ld")], str(folder / "image.elf")
         link = [*_LINK, *script, "-lm", "-lc", "-lgcc"]
         gcc = ["arm-none-eabi-gcc", "-std=gnu99", *flags, *files, *link, "-o", image]
         subprocess.run(gcc, check=True, capture_output=True)
@@ -53,7 +56,7 @@ def measured() -> OnBoard:
         sizes = _sizes(image)
     text = sum(sizes.get(name, 0) for name in _CALLED)
     return OnBoard(
-        (whole - empty) * CLOCK / STEPS,
+        (whole - empty) / STEPS,
         text,
         sizes["khepera_nominal_coefficients"],
         sizes["memory"],
