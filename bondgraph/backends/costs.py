@@ -62,7 +62,7 @@ def _arm(name: str, *flags: str) -> Core:
 
 #: A Cortex-M4 runs all instructions of the smaller ones: it counts theirs.
 CORES = (
-    Core("x86-64", "double", "gcc", ("-mno-red-zone",), (), ("valgrind",)),
+    Core("x86-64", "double", "gcc", (), (), ("valgrind",)),
     _arm("Cortex-M4F", "-mcpu=cortex-m4", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"),
     _arm("Cortex-M3", "-mcpu=cortex-m3"),
     _arm("Cortex-M0+", "-mcpu=cortex-m0plus"),
