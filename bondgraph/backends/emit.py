@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from bondgraph.backends import c, python
+from bondgraph.backends import c, fixed_c, python
 from bondgraph.backends.costs import Cost, costs, table
 from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.deviations import record
@@ -14,6 +14,7 @@ from bondgraph.backends.readme import readme
 from bondgraph.backends.target import Target, load
 from bondgraph.backends.templates import fill
 from bondgraph.ir.artifact import Artifact
+from bondgraph.ir.fixed_program import FixedProgram
 from bondgraph.ir.program import Program
 from bondgraph.text.diagnostic import Trouble
 
@@ -29,6 +30,7 @@ def emit(
     thresholds: Program | None = None,
     tuned: Tuned = UNTUNED,
     extras: Iterable[str] = (),
+    fixed: FixedProgram | None = None,
     measured: bool = False,
 ) -> tuple[Artifact, ...]:
     """The files of `program` in the `targets` (`c`, `python`), and a README about them.
@@ -37,7 +39,8 @@ def emit(
     `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`,
     what a board of `qemu` needs to run it, what makes the folder a module of `zephyr`, a
     component of ESP-IDF, a library for `arduino`, a node of `ros2`, and a record of deviations from
-    the rules of `misra`. The same program gives the same bytes, but for the costs of the C, which
+    the rules of `misra`. With `fixed`, C is in whole numbers: residuals only, without thresholds,
+    `diagnose` and extras. The same program gives the same bytes, but for the costs of the C, which
     are `measured` with the tools that are here. Raises ValueError for a target or an extra that is
     not there, Trouble for an extra that none of the targets has, and where there is nothing to
     measure with.
@@ -52,14 +55,29 @@ def emit(
     found: dict[str, str] = {}
     examples: dict[str, str] = {}
     for name in dict.fromkeys(targets):
-        files = _files(program, load(name), thresholds, tuned, wanted)
+        target = load(name)
+        if fixed is not None and target.fixed:
+            found |= _whole_numbers(fixed, target)
+            continue
+        files = _files(program, target, thresholds, tuned, wanted)
         found |= files
         if "example" in wanted:
             examples[name] = files[load(name).extras["example"][0][1]]
-    holes = readme(program, about, tuple(dict.fromkeys(targets)), examples, thresholds, wanted)
+    holes = readme(
+        program, about, tuple(dict.fromkeys(targets)), examples, thresholds, wanted, fixed
+    )
+    if measured and fixed is not None:
+        raise Trouble("costs are measured of double and float: leave --costs out")
     holes["costs"] = table(_costs(program, tuned)) if measured and "c" in targets else {}
     found["README.md"] = fill("README.md.j2", holes)
     return tuple(Artifact(path, text) for path, text in found.items())
+
+
+def _whole_numbers(fixed: FixedProgram, target: Target) -> dict[str, str]:
+    """The code of a program in one language, in whole numbers."""
+    holes = fixed_c.files(fixed, target) | {f"has_{name}": False for name in EXTRAS}
+    file = facts(fixed.program).file
+    return {path.format(file=file, of=""): fill(name, holes) for name, path in target.fixed}
 
 
 def _files(

@@ -19,6 +19,7 @@ from bondgraph.cli.options import (
     realised,
     sample_rate,
 )
+from bondgraph.cli.signal_ranges import ranging, with_ranges
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 
@@ -97,6 +98,7 @@ def arguments(parser: ArgumentParser) -> None:
         help="write nothing; exit with 1 if the files that are there are not what would be written",
     )
     parser.add_argument("--quiet", action="store_true", help="print findings, but no result")
+    ranging(parser)
     further(parser)
     realised(parser)
 
@@ -123,7 +125,7 @@ def run(args: Namespace) -> int:
             listed = ", ".join(every)
             print(f"error: no target is called {unknown[0]}; there are {listed}", file=sys.stderr)
             return 2
-    compilation = _opened(args)
+    compilation = with_ranges(_opened(args), args)
     _compute(compilation)
     if compilation.options.offsets:
         names = ", ".join(dict(compilation.options.offsets))

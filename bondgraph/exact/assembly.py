@@ -15,6 +15,7 @@ from bondgraph.exact.outline import outline
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.groups import Groups
+from bondgraph.structural.floating import references
 
 
 class Balance(NamedTuple):
@@ -147,8 +148,11 @@ class _Builder:
         final = self.share()
         self.connect(final)
         balances, laws, rates, silent = [], [], [], []
+        grounded = references(graph)
         for number, node in enumerate(graph.nodes):
-            if node.kind in ("0", "1"):
+            if number in grounded and node.common is not None:
+                laws.append((number, node.common))
+            elif node.kind in ("0", "1"):
                 balances.append(self.balance(number, node, final))
             elif node.kind in ("De", "Df"):
                 shift = int(node.kind == "De")

@@ -198,6 +198,13 @@ class Point:
                 if solved is not None:
                     pending = [item for item in pending if item[0] != solved]
                     continue
+                if self.setting.joint:
+                    from bondgraph.exact.knots import together
+
+                    values = together(self, [e for _, e in pending], STRIDE)
+                    for column, value in values.items():
+                        self.fix({column: 1}, value)
+                    return
                 self.choose(block, law)
             pending = left
 

@@ -195,6 +195,7 @@ ROWS = [
     Row("Loops", "odd cycle of gyrators with resistors", "electrical", "gyrator_cycle3_res"),
     Row("Loops", "nonlinear loop, one Newton block", "electrical", "cubic_parallel"),
     Row("Loops", "nonlinear node of diodes", "electrical", "node_of_diodes"),
+    Row("Loops", "bridge of four diodes, not grounded", "electrical", "bridge_rectifier"),
     Row("Loops", "root inside a root", "electrical", "nested_roots"),
     Row("Loops", "two laws without inverse at one node", "hydraulic", "two_tanh"),
     Row("Loops", "diode and storage behind one node", "electrical", "diode_loop"),
