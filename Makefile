@@ -91,7 +91,7 @@ edits: $(VENV)/dev.stamp ## 10 000 random edits through the language server, com
 	$(BIN)/python -m tests.editor_edits $(if $(SEED),--seed $(SEED))
 
 update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
-	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model > /dev/null || exit 1; done
+	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model --costs > /dev/null || exit 1; done
 	$(BIN)/python -m pytest --update
 
 fuzz: $(VENV)/dev.stamp ## a million hostile models, and 800 000 scenarios, logs, journals, messages ..., by atheris; two hours or more, or MINUTES=... of each kind at a time

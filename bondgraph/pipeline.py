@@ -68,7 +68,9 @@ Range = tuple[float, float]
 _WATCHED = 200
 
 #: Options that change numbers of the residual program only, and the stages before it.
-_LATE = frozenset({"rate", "bandwidth", "targets", "extras", "libm", "real", "ranges"})
+_LATE = frozenset(
+    {"rate", "bandwidth", "targets", "extras", "libm", "real", "ranges", "costs"}
+)
 _EARLY = frozenset(
     "syntax graph integral derivative equations structure reduced _plant _analysis _shown"
     " verification observers".split()
@@ -91,10 +93,12 @@ class Options(NamedTuple):
     pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
     `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
-    `extras` are files beside the code: `tests`, `exact`, `example`, each in a folder of its own.
+    `extras` are files beside the code: `tests`, `exact`, `example`, `qemu`, `zephyr`, `espidf`,
+    `arduino`, `ros2`, `misra`.
     With `libm` step calls tanh of the mathematical library, else one that is 1e-8 near it.
     With `real` fixed C is in whole numbers of 32 bits, for samples in `ranges`: pairs of numbers in
     their units, by name.
+    With `costs` the README says what the C costs on each core whose compiler is here.
     """
 
     rate: float = 1000.0
@@ -113,6 +117,7 @@ class Options(NamedTuple):
     libm: bool = False
     real: Literal["double", "fixed"] = "double"
     ranges: Mapping[str, Range] | tuple[tuple[str, Range], ...] = ()
+    costs: bool = False
 
 
 if TYPE_CHECKING:
@@ -136,6 +141,7 @@ if TYPE_CHECKING:
         libm: bool
         real: Literal["double", "fixed"]
         ranges: Mapping[str, Range] | tuple[tuple[str, Range], ...]
+        costs: bool
 
 
 class Compilation:
@@ -903,7 +909,7 @@ class Compilation:
 
         languages = tuple(name for name in targets if name != "fmu")
         fixed = self.fixed_program if self.options.real == "fixed" and "c" in languages else None
-        code = self.program, languages, self._bounds, self._tuned, extras, fixed
+        code = self.program, languages, self._bounds, self._tuned, extras, fixed, self.options.costs
         found = emit(*code) if languages else ()
         return (*found, *self._fmus) if "fmu" in targets else found
 
@@ -1021,7 +1027,7 @@ def compile(
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
     `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`,
-    `parameters`, `offsets`, `extras`, `libm`, `real`, `ranges`.
+    `parameters`, `offsets`, `extras`, `libm`, `real`, `ranges`, `costs`.
     Nothing is computed before a stage is asked for. Raises `CompileError` if the file cannot be
     read, TypeError for an unknown option, ValueError for a number that is not positive.
 

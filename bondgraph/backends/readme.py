@@ -11,6 +11,7 @@ from bondgraph.backends.facts import Facts
 from bondgraph.backends.identifiers import identifier, snake
 from bondgraph.backends.nominal_coefficients import nominal
 from bondgraph.backends.parts import step_part
+from bondgraph.backends.target import load
 from bondgraph.ir.fixed_program import FixedProgram
 from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
 from bondgraph.text.numerals import joined
@@ -188,6 +189,23 @@ def _parameters(params: Sequence[Field]) -> list[str]:
     return _table(("parameter", "unit", "value in the model", "meaning"), rows)
 
 
+#: What there is beside the code, where it was asked for.
+_FURTHER = {
+    "tests": ("`tests/`", "whether the code gives what it must, on your machine"),
+    "exact": ("`exact/`", "the residuals of exact derivatives, for simulators"),
+    "example": ("`example/`", "a program to start from"),
+    "qemu": ("`qemu/`", "what the example needs to run on a Cortex-M4F in qemu"),
+    "zephyr": ("`zephyr/`", "this folder as a module of Zephyr"),
+    "espidf": ("`idf_component.yml`, `Kconfig`", "this folder as a component of ESP-IDF"),
+    "arduino": (
+        "`library.properties`, `library.json`, `examples/`",
+        "this folder as a library for Arduino and PlatformIO, with a sketch",
+    ),
+    "ros2": ("`ros2/`", "a node of ROS 2: samples in, diagnostics out"),
+    "misra": ("`MISRA.md`", "which rules of MISRA C:2012 the C does not keep, where and why"),
+}
+
+
 def _file_list(
     file: str, targets: Sequence[str], extras: Sequence[str], fixed: bool
 ) -> list[str]:
@@ -200,16 +218,12 @@ def _file_list(
     if "python" in targets:
         digits = "in double" if fixed else "with the same digits"
         rows.append((f"`{file}.py`", f"the same in Python 3.11, {digits}"))
-    further = {
-        "tests": ("`tests/`", "whether the code gives what it must, on your machine"),
-        "exact": ("`exact/`", "the residuals of exact derivatives, for simulators"),
-        "example": ("`example/`", "a program to start from"),
-    }
-    rows += [further[name] for name in extras]
+    there = [name for name in _FURTHER if any(name in load(t).extras for t in targets)]
+    rows += [_FURTHER[name] for name in there if name in extras]
     found = _table(("file", "what it is"), rows)
-    left = [name for name in further if name not in extras]
-    if left and not fixed:
-        found += ["", f"`bondgraph compile --with {','.join(left)}` writes more."]
+    if len(there) > len(extras) and not fixed:
+        more = "`bondgraph compile --with` writes more: `bondgraph compile --help` says what."
+        found += ["", more]
     return found
 
 

@@ -77,13 +77,20 @@ def arguments(parser: ArgumentParser) -> None:
         type=_extras,
         action="extend",
         default=[],
-        help="write more: tests, exact, example, separated by commas, each in a folder of its own;"
-        " may be repeated",
+        help="write more, separated by commas: tests, exact, example, qemu (a board to run it on),"
+        " zephyr, espidf, arduino, ros2 (what these build systems need), misra (deviations from its"
+        " rules); may be repeated",
     )
     parser.add_argument(
         "--libm",
         action="store_true",
         help="call tanh of the mathematical library, not one that is 1e-8 near it",
+    )
+    parser.add_argument(
+        "--costs",
+        action="store_true",
+        help="measure what the C costs on each core whose compiler and qemu are installed: a table"
+        " in the README",
     )
     parser.add_argument(
         "--check",
@@ -179,7 +186,9 @@ def _opened(args: Namespace) -> Compilation:
         args.bandwidth = None
     args.rate = args.rate or (Options().rate if tuning is None else tuning.rate)
     compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
-    compilation = compilation.with_options(extras=tuple(dict.fromkeys(args.extras)), libm=args.libm)
+    compilation = compilation.with_options(
+        extras=tuple(dict.fromkeys(args.extras)), libm=args.libm, costs=args.costs
+    )
     if tuning is None:
         return compilation
     try:
