@@ -25,8 +25,7 @@ from bondgraph.ir.expr import Expr
 
 _STEPS = 200  # of Newton's method, before another random point is better
 _SHORTEST = arb(2) ** -14  # share of a step below which there is no way on
-_CLOSE = arb(2) ** -160  # of the last step to the point: each one after it squares that
-_AFTER = 2  # steps after it, so that what is left is rounding
+_CLOSE = arb(2) ** -160  # of a step to the point: what follows is shorter, or it is rounding
 
 
 class Begun(Protocol):
@@ -51,10 +50,12 @@ def together(point: Begun, equations: Sequence[Equation], stride: int) -> dict[i
     laws = _Laws(point, equations, stride)
     x = [point.numbers.any(point.random) for _ in laws.columns]
     value, slopes = laws.at(x)
-    after = 0
     for _ in range(_STEPS):
         step = _step(slopes, value)
         size, whole = _norm(step), 1 + _norm(x)
+        radius = (whole * arb(2) ** (64 - ctx.prec)).upper()
+        if size < radius / 4:
+            return {c: arb(a, radius) for c, a in zip(laws.columns, x, strict=True)}
         close = size < _CLOSE * whole
         share = arb(1)
         while True:
@@ -69,10 +70,6 @@ def together(point: Begun, equations: Sequence[Equation], stride: int) -> dict[i
             if close or not share > _SHORTEST:
                 raise Undefined("laws that no step satisfies together")
         x, slopes = moved, found
-        after += close
-        if after > _AFTER:
-            radius = (whole * arb(2) ** (64 - ctx.prec)).upper()
-            return {c: arb(a, radius) for c, a in zip(laws.columns, x, strict=True)}
     raise Undefined("laws that were not satisfied together")
 
 

@@ -11,6 +11,7 @@ import pytest
 
 import bondgraph
 from bondgraph.backends.costs import CORES, missing
+from bondgraph.backends.write import COSTS
 from bondgraph.backends.emit import EXTRAS
 from bondgraph.backends.identifiers import snake
 from bondgraph.ir.artifact import Artifact
@@ -54,11 +55,7 @@ def test_is_what_is_committed(model: str, update: bool) -> None:
     for artifact in artifacts:
         path = folder / artifact.path
         assert path.is_file(), f"{path.relative_to(_ROOT)} is not there: run `make update`"
-        assert _COSTS.sub("", path.read_text(encoding="utf-8")) == artifact.text
-
-
-#: What is measured, and tells of compilers as well as of the code.
-_COSTS = re.compile(r"\n## What it costs\n.*?(?=\n## |\Z)", re.DOTALL)
+        assert COSTS.sub("", path.read_text(encoding="utf-8")) == artifact.text
 
 
 @pytest.mark.parametrize("model", ["dc_motor", "khepera"])
@@ -69,7 +66,7 @@ def test_costs_are_those_that_are_committed(model: str) -> None:
         pytest.skip(f"{', '.join(absent)} not installed")
     found = {a.path: a.text for a in _compilation(model).with_options(costs=True).artifacts}
     ours, committed = (
-        _COSTS.findall(text)
+        COSTS.findall(text)
         for text in (found["README.md"], (_ROOT / "generated" / model / "README.md").read_text())
     )
     assert len(committed) == 1 and "Not measured" not in committed[0]
