@@ -96,6 +96,7 @@ def test_f2_renames_at_all_places(page: Workbench) -> None:
     page.press("z", control=True)  # one step back
     page.until(f"workbench.text === {before!r}")
     page.until("document.querySelectorAll('.relation:not(.stale *)').length === 1")
+    page.until("document.querySelector('#drawing [data-node=R]')")
 
 
 def test_a_row_lights_its_element_and_its_line(page: Workbench) -> None:
