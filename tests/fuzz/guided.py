@@ -28,7 +28,7 @@ from tests.fuzz.attempt import Finding, Kind, attempt, smallest
 from tests.fuzz.counts import Counts
 from tests.fuzz.mutate import ROOT
 from tests.fuzz.targets import KINDS
-from tests.measured import commit, write
+from tests.measured import LEDGER, commit, write
 
 KEPT = Path(__file__).with_name("corpus")
 _BROKE = ROOT / "build" / "fuzz"  # where the texts of findings go
@@ -40,7 +40,7 @@ _COUNTS = {"check": 1_000_000, "compile": 10_000}
 _OTHERS = 100_000
 _CORPUS = 40_000  # bytes that are kept of a kind
 #: What a campaign has found so far, by kind: a run of some hours at a time, each with its commit.
-_LEDGER = Path(__file__).with_name("campaign.json")
+_LEDGER = ROOT / LEDGER
 
 
 class Result(NamedTuple):

@@ -94,6 +94,12 @@ def test_branches_lead_the_fuzzer(planted: str) -> None:
     assert found.texts >= 50_000 and found.answers == 5
 
 
+def test_a_run_that_time_ends_counts_what_it_did(planted: str) -> None:
+    found = run(Run("deep", 10**9, module=planted, minutes=0.05))
+    assert 0 < found.texts < 10**9 and found.seconds < 60
+    assert not [f for f in found.findings if f.what != "LookupError in planted.py:deep"]
+
+
 @pytest.mark.parametrize(
     ("name", "what", "seconds"),
     [("endless", "timeout", 2), ("stuck", "timeout", 2), ("hungry", "oom", 20)],
