@@ -224,7 +224,9 @@ class Diagnosis:
             self._fire(row.time, fresh, [], out)
         if not self._detection.alarmed:
             self._remember(row)
-        elif self._judge.step(row, self._past, self._limits[:, 0], self._tolerated):
+        elif self._judge.step(
+            row, self._past, self._limits[:, 0], self._tolerated, self._history
+        ):
             known = self._judge.best
             if not self._unusual():
                 self._explain(row, out)
@@ -302,7 +304,7 @@ class Diagnosis:
         sigma = self._limits[:, 0]
         if not past:
             none = np.empty((0, len(self._engine.signals)))
-            self._judge.compare(self._before, none, 0, [], sigma, self._tolerated)
+            self._judge.compare(self._before, none, 0, [], sigma, self._tolerated, self._history)
             return time
         engine, piece = (chosen[0].engine, [chosen[0].samples]) if chosen else (self._before, piece)
         last = past[begin]
@@ -318,7 +320,9 @@ class Diagnosis:
             first -= 1
         before = [row.samples for row in past[first : begin + 1]]
         healthy = np.concatenate([*before, samples[:count]])
-        self._judge.compare(past[first].engine, healthy, count, chosen, sigma, self._tolerated)
+        self._judge.compare(
+            past[first].engine, healthy, count, chosen, sigma, self._tolerated, self._history
+        )
         return last.time + count * self._engine.sample_time
 
     def _odd(self, row: Row) -> bool:

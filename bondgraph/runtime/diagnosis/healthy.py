@@ -12,6 +12,7 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signature_matrix import DoubleFaults, ModeSignatures, SignatureMatrix, stuck
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.remembered import Memory, memories
 from bondgraph.runtime.log import Array
@@ -189,6 +190,19 @@ def tolerated(
         found.append(one)
     keep = [k for k, size in enumerate(most) if size > 0]
     return tuple(found[k] for k in keep), np.array([most[k] for k in keep]) / math.sqrt(3.0)
+
+
+def as_it_is(
+    known: Sequence[Hypothesis], nominal: Mapping[str, float], history: History
+) -> dict[str, float]:
+    """The values that tolerated parameters of this machine have most probably, by healthy rows.
+
+    Within their tolerances. What healthy rows do not tell is as it is declared.
+    """
+    most = math.sqrt(3.0) * history.prior
+    off = np.clip(history.fit(), -most, most).tolist()
+    return {h.fault: nominal[h.fault] - d
+            for h, d in zip(known, off, strict=True) if h.kind == "value"}  # fmt: skip
 
 
 def slack(known: Sequence[Hypothesis], slopes: Array) -> Array:

@@ -20,6 +20,7 @@ import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.history import History, triangle
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.model_error import SHARE, shares, whitened
 from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
@@ -148,25 +149,40 @@ def _compared_with(
 ) -> tuple[Array, Array]:
     """What is known of the healthy machine, and what was seen; raises as `explain` does."""
     seen = _seen(rows, history.prior, np.array([h.usual for h in hypotheses]))
-    known = history.known()
+    known = _with_errors(history.known(), rows.value.shape[1])
     if not (np.isfinite(seen).all() and np.isfinite(known).all()):
         raise np.linalg.LinAlgError("a residual, a slope or a weight is not finite")
     return known, seen
 
 
+def _with_errors(known: Array, residuals: int) -> Array:
+    """The same with an error of each residual that stays, of which nothing is known."""
+    count = len(known)
+    found = np.zeros((count + residuals, count + residuals + 1))
+    found[:count, :count], found[:count, -1] = known[:, :-1], known[:, -1]
+    found[count:, count:-1] = np.eye(residuals)
+    return found
+
+
 def _seen(rows: Rows, prior: Array, usual: Array) -> Array:
     """What was seen and what would move it, in units of noise: (chunks, moments, columns).
 
-    Columns are the parameters with a tolerance, in deviations, the hypotheses, in their usual
-    changes, and the residuals.
+    Columns are the parameters with a tolerance, in deviations, the errors of residuals that stay,
+    the hypotheses, in their usual changes, and the residuals.
     """
+    count, residuals = rows.value.shape
     noise = np.sqrt(rows.weight)[:, :, None]
     rest = rows.rest.transpose(0, 2, 1) * prior
     slopes = rows.slopes.transpose(0, 2, 1) * usual
-    table = np.concatenate([rest, slopes, rows.value[:, :, None]], axis=2) * noise
-    length = max(_CHUNK, -(-len(table) // _PARTS))
-    more = np.zeros((-len(table) % length, *table.shape[1:]))  # of nothing nothing follows
-    return np.concatenate([table, more]).reshape(-1, length * table.shape[1], table.shape[2])
+    length = max(_CHUNK, -(-count // _PARTS))
+    own = shares(count, length)
+    error = SHARE * rows.value[:, :, None]
+    ever = math.sqrt(own.ever) * error * np.eye(residuals)
+    table = np.concatenate([rest, ever, slopes, rows.value[:, :, None], error], axis=2) * noise
+    more = np.zeros((-count % length, *table.shape[1:]))  # of nothing nothing follows
+    table = np.concatenate([table, more]).reshape(-1, length, *table.shape[1:])
+    white = whitened(table[..., :-1], table[..., -1], own)
+    return white.reshape(len(white), -1, white.shape[-1])
 
 
 class _Fits(NamedTuple):
