@@ -91,11 +91,11 @@ edits: $(VENV)/dev.stamp ## 10 000 random edits through the language server, com
 	$(BIN)/python -m tests.editor_edits $(if $(SEED),--seed $(SEED))
 
 update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
-	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model > /dev/null || exit 1; done
+	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model --costs > /dev/null || exit 1; done
 	$(BIN)/python -m pytest --update
 
-fuzz: $(VENV)/dev.stamp ## a million hostile models, and 800 000 scenarios, logs, journals, messages ..., by atheris; an hour or more (SHARE=0.1: less)
-	$(BIN)/python -m tests.fuzz.guided --jobs 2 --share $(or $(SHARE),1)
+fuzz: $(VENV)/dev.stamp ## a million hostile models, and 800 000 scenarios, logs, journals, messages ..., by atheris; two hours or more, or MINUTES=... of each kind at a time
+	$(BIN)/python -m tests.fuzz.guided --campaign --jobs 2 $(if $(MINUTES),--minutes $(MINUTES))
 
 random: $(VENV)/dev.stamp ## 10 000 random bond graphs, others each time but for START=..., each verified or refused with a reason
 	$(BIN)/python -m tests.random.run --count 10000 --jobs 2 $(if $(START),--start $(START))

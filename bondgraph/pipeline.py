@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.artifact import Artifact, BinaryArtifact
     from bondgraph.ir.causal import CausalGraph, Conflict
     from bondgraph.ir.equation_system import EquationSystem
+    from bondgraph.ir.fixed_program import FixedProgram
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import Observer, ReducedSystem, ResidualSet
@@ -60,11 +61,16 @@ Own = TypeVar("Own", bound="Compilation")
 #: What a step may be made of, see `Options`: in one form, or observers where they are named.
 Form = Literal["derivative", "observer"] | tuple[str, ...]
 
+#: The least and the largest value of a signal, in its unit.
+Range = tuple[float, float]
+
 #: Bonds of a model whose double faults are found within half a second or so.
 _WATCHED = 200
 
 #: Options that change numbers of the residual program only, and the stages before it.
-_LATE = frozenset({"rate", "bandwidth", "targets", "extras", "libm"})
+_LATE = frozenset(
+    {"rate", "bandwidth", "targets", "extras", "libm", "real", "ranges", "costs"}
+)
 _EARLY = frozenset(
     "syntax graph integral derivative equations structure reduced _plant _analysis _shown"
     " verification observers".split()
@@ -87,8 +93,12 @@ class Options(NamedTuple):
     pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
     `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
-    `extras` are files beside the code: `tests`, `exact`, `example`, each in a folder of its own.
+    `extras` are files beside the code: `tests`, `exact`, `example`, `qemu`, `zephyr`, `espidf`,
+    `arduino`, `ros2`, `misra`.
     With `libm` step calls tanh of the mathematical library, else one that is 1e-8 near it.
+    With `real` fixed C is in whole numbers of 32 bits, for samples in `ranges`: pairs of numbers in
+    their units, by name.
+    With `costs` the README says what the C costs on each core whose compiler is here.
     """
 
     rate: float = 1000.0
@@ -105,6 +115,9 @@ class Options(NamedTuple):
     tuning: Tuning | None = None
     extras: tuple[str, ...] = ()
     libm: bool = False
+    real: Literal["double", "fixed"] = "double"
+    ranges: Mapping[str, Range] | tuple[tuple[str, Range], ...] = ()
+    costs: bool = False
 
 
 if TYPE_CHECKING:
@@ -126,6 +139,9 @@ if TYPE_CHECKING:
         tuning: Tuning | None
         extras: tuple[str, ...]
         libm: bool
+        real: Literal["double", "fixed"]
+        ranges: Mapping[str, Range] | tuple[tuple[str, Range], ...]
+        costs: bool
 
 
 class Compilation:
@@ -652,6 +668,21 @@ class Compilation:
         )
 
     @cached_property
+    def fixed_program(self) -> FixedProgram:
+        """The residual program in whole numbers, proven not to overflow within `Options.ranges`.
+
+        >>> import bondgraph
+        >>> ranges = {"load": (-1e-3, 1e-3), "U": (-12, 12), "current": (-1, 1), "speed": (0, 300)}
+        >>> c = bondgraph.compile("models/dc_motor.bg", real="fixed", ranges=ranges)
+        >>> c.fixed_program.residuals["r1"].fixed < 2e-5  # V, next to the same in double
+        True
+        """
+        from bondgraph.backends.fixed_point import fixed_point
+
+        program, ranges = self.program, dict(self.options.ranges)
+        return self._stage(fixed_point(program, ranges, self.report))
+
+    @cached_property
     def program_with_readings(self) -> Program:
         """The residual program in which the readings that laws received are signals of their own.
 
@@ -877,7 +908,8 @@ class Compilation:
         from bondgraph.backends.emit import emit
 
         languages = tuple(name for name in targets if name != "fmu")
-        code = self.program, languages, self._bounds, self._tuned, extras
+        fixed = self.fixed_program if self.options.real == "fixed" and "c" in languages else None
+        code = self.program, languages, self._bounds, self._tuned, extras, fixed, self.options.costs
         found = emit(*code) if languages else ()
         return (*found, *self._fmus) if "fmu" in targets else found
 
@@ -951,14 +983,14 @@ class Compilation:
         from bondgraph.passes.elaboration.elaborate import elaborate
         from bondgraph.passes.elaboration.unit_mends import CODE, unit_mends
 
-        def holds(text: str) -> bool:
+        def findings(text: str) -> list[str]:
             report, source = Report(), Source(self.source.path, text)
             file = parse(source, report)
             if file is not None and not report.failed:
                 elaborate(file, source, self.model, self._load, report, self.options.open_ports)
-            return not any(d.code == CODE for d in report.diagnostics)
+            return [d.message for d in report.diagnostics if d.code == CODE]
 
-        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, holds)
+        self.report.diagnostics[:] = unit_mends(self.syntax, self.report.diagnostics, findings)
 
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
@@ -995,7 +1027,7 @@ def compile(
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
     `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`,
-    `parameters`, `offsets`, `extras`, `libm`.
+    `parameters`, `offsets`, `extras`, `libm`, `real`, `ranges`, `costs`.
     Nothing is computed before a stage is asked for. Raises `CompileError` if the file cannot be
     read, TypeError for an unknown option, ValueError for a number that is not positive.
 
@@ -1043,6 +1075,14 @@ def _checked(options: Options) -> Options:
     form = options.form
     if isinstance(form, str) and form not in ("derivative", "observer"):
         raise ValueError(f"form is derivative, observer or names of residuals, not {form!r}")
+    if options.real not in ("double", "fixed"):
+        raise ValueError(f"real is double or fixed, not {options.real!r}")
+    ranges = {str(n): (float(a), float(b)) for n, (a, b) in dict(options.ranges).items()}
+    for name, (low, high) in ranges.items():
+        if not -float("inf") < low < high < float("inf"):
+            raise WrongOption(f"the range of {name} must rise, not go from {low:g} to {high:g}")
+    if options.real == "fixed":
+        _check_fixed(options)
     for name in ("targets", "decouple", "extras"):
         value = getattr(options, name)
         if isinstance(value, str):
@@ -1060,5 +1100,19 @@ def _checked(options: Options) -> Options:
         targets=tuple(options.targets),
         extras=tuple(options.extras),
         decouple=tuple(options.decouple),
+        ranges=tuple(ranges.items()),
         form=form if isinstance(form, str) else tuple(form),
     )
+
+
+def _check_fixed(options: Options) -> None:
+    """What there is not in whole numbers yet; raises `WrongOption`."""
+    if options.extras:
+        raise WrongOption(f"--with {options.extras[0]} is for double: leave --real fixed out")
+    if options.libm:
+        raise WrongOption("--libm calls a function of double: leave --real fixed out")
+    if options.tuning is not None:
+        raise WrongOption(
+            "--tuning is for `diagnose`, which is not there in whole numbers: leave --real fixed"
+            " out, or compare the residuals with limits of your own"
+        )

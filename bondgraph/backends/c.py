@@ -92,6 +92,7 @@ def files(
         "of": "",
         "settles": any(not r.unavailable for c in codes for r in c.program.residuals),
         "bounded": bounds is not None,
+        "fixed": False,
     }
     found["decides"] = bool(found["decides"]) and decides
     cores = [one.core() for one in codes]

@@ -11,6 +11,8 @@ from bondgraph.backends.facts import Facts
 from bondgraph.backends.identifiers import identifier, snake
 from bondgraph.backends.nominal_coefficients import nominal
 from bondgraph.backends.parts import step_part
+from bondgraph.backends.target import load
+from bondgraph.ir.fixed_program import FixedProgram
 from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
 from bondgraph.text.numerals import joined
 
@@ -24,6 +26,7 @@ def readme(
     programs: Mapping[str, str],
     thresholds: Program | None = None,
     extras: Sequence[str] = (),
+    fixed: FixedProgram | None = None,
 ) -> dict[str, object]:
     """The holes of README.md.j2; `programs` has the text of the example by target."""
     stem = facts.stem
@@ -38,14 +41,42 @@ def readme(
         "matrix": _matrix(program.residuals),
         "signals": _table(("signal", "unit", "in `step`", "meaning"), map(_signal, program.knowns)),
         "parameters": _parameters(program.params),
-        "files": _file_list(facts.file, targets, extras),
+        "files": _file_list(facts.file, targets, extras, fixed is not None),
         "embedded": [_EMBEDDED[name](program, facts) for name in targets],
+        "fixed_signals": [] if fixed is None else _fixed_signals(fixed),
+        "fixed_digest": "" if fixed is None else fixed.program.digest,
+        "fixed_residuals": [] if fixed is None else _fixed_residuals(fixed),
         "examples": [_EXAMPLES[name](text, facts) for name, text in programs.items()],
-        "usage": _usage(program, facts, targets),
+        "usage": _usage(program, facts, targets, fixed is not None),
         "named": _named(program),
         "dropped": _dropped(program.dropped),
-        "thresholds": [] if thresholds is None else _thresholds(thresholds),
+        "thresholds": [] if thresholds is None or fixed is not None else _thresholds(thresholds),
     }
+
+
+def _fixed_signals(fixed: FixedProgram) -> list[str]:
+    """How each sample is scaled, and what it may be."""
+    paths = {k.name: k for k in fixed.program.knowns}
+    rows = []
+    for name, own in fixed.samples.items():
+        known, whole = paths[name], f"{own.least} to {own.most}"
+        unit, scale = known.unit or "-", f"2^{own.bits}"
+        limits = f"{own.low:g} to {own.high:g}"
+        if known.counts is not None:
+            unit, scale, limits = "counts", "1", "any number; per sample"
+        rows.append((f"`{known.path}`", unit, scale, limits, whole))
+    return _table(("signal", "unit", "times", "limits", "limits as whole numbers"), rows)
+
+
+def _fixed_residuals(fixed: FixedProgram) -> list[str]:
+    """How each residual is scaled, how large it can be, and how far it is from double."""
+    rows = (
+        (f"`{name}`", f"2^{own.bits}", f"{own.largest:.3g}", f"{own.fixed:.2g}",
+         f"{own.hourly:.2g}" if own.hourly else "none")
+        for name, own in fixed.residuals.items()
+    )  # fmt: skip
+    head = ("residual", "times", "at most", "from double at most", "more for each hour")
+    return _table(head, rows)
 
 
 def _dropped(terms: Sequence[Dropped]) -> list[str]:
@@ -158,24 +189,41 @@ def _parameters(params: Sequence[Field]) -> list[str]:
     return _table(("parameter", "unit", "value in the model", "meaning"), rows)
 
 
-def _file_list(file: str, targets: Sequence[str], extras: Sequence[str]) -> list[str]:
+#: What there is beside the code, where it was asked for.
+_FURTHER = {
+    "tests": ("`tests/`", "whether the code gives what it must, on your machine"),
+    "exact": ("`exact/`", "the residuals of exact derivatives, for simulators"),
+    "example": ("`example/`", "a program to start from"),
+    "qemu": ("`qemu/`", "what the example needs to run on a Cortex-M4F in qemu"),
+    "zephyr": ("`zephyr/`", "this folder as a module of Zephyr"),
+    "espidf": ("`idf_component.yml`, `Kconfig`", "this folder as a component of ESP-IDF"),
+    "arduino": (
+        "`library.properties`, `library.json`, `examples/`",
+        "this folder as a library for Arduino and PlatformIO, with a sketch",
+    ),
+    "ros2": ("`ros2/`", "a node of ROS 2: samples in, diagnostics out"),
+    "misra": ("`MISRA.md`", "which rules of MISRA C:2012 the C does not keep, where and why"),
+}
+
+
+def _file_list(
+    file: str, targets: Sequence[str], extras: Sequence[str], fixed: bool
+) -> list[str]:
     """What is in the folder."""
     rows = []
     if "c" in targets:
-        rows.append((f"`{file}.h`, `{file}.c`", "all of it in C99: two files to add to a project"))
+        what = "the residuals in C99, in whole numbers" if fixed else "all of it in C99"
+        rows.append((f"`{file}.h`, `{file}.c`", f"{what}: two files to add to a project"))
         rows.append(("`CMakeLists.txt`", "the library, alone or in another project"))
     if "python" in targets:
-        rows.append((f"`{file}.py`", "the same in Python 3.11, with the same digits"))
-    further = {
-        "tests": ("`tests/`", "whether the code gives what it must, on your machine"),
-        "exact": ("`exact/`", "the residuals of exact derivatives, for simulators"),
-        "example": ("`example/`", "a program to start from"),
-    }
-    rows += [further[name] for name in extras]
+        digits = "in double" if fixed else "with the same digits"
+        rows.append((f"`{file}.py`", f"the same in Python 3.11, {digits}"))
+    there = [name for name in _FURTHER if any(name in load(t).extras for t in targets)]
+    rows += [_FURTHER[name] for name in there if name in extras]
     found = _table(("file", "what it is"), rows)
-    left = [name for name in further if name not in extras]
-    if left:
-        found += ["", f"`bondgraph compile --with {','.join(left)}` writes more."]
+    if len(there) > len(extras) and not fixed:
+        more = "`bondgraph compile --with` writes more: `bondgraph compile --help` says what."
+        found += ["", more]
     return found
 
 
@@ -286,7 +334,9 @@ def _switches(program: Program) -> list[str]:
     return [text + rest]
 
 
-def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
+def _usage(
+    program: Program, facts: Facts, targets: Sequence[str], fixed: bool
+) -> list[str]:
     settle = max((r.settle for r in program.residuals), default=0.0)
     wait = settle / program.bandwidth
     stem, prefix = facts.stem, snake(program.name).upper()
@@ -311,7 +361,15 @@ def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
         "nothing. A healthy residual is near zero, not zero: `bondgraph compile --tuning` puts the "
         "limits of a log of the healthy machine into the code; or make them of what you see.",
     ]
-    if "c" in targets:
+    if "c" in targets and fixed:
+        found.append(
+            "- **C** is in whole numbers: no `configure`, since scales and errors are proven for "
+            f"the parameters of the model, and no `diagnose`; `{stem}_nominal_coefficients` has "
+            "all coefficients. A sample beyond its limits is held at them; residuals that see it "
+            "are 0 and not valid, and start anew with the next one within them. One machine is one "
+            f"`{stem}_memory`."
+        )
+    elif "c" in targets:
         found += [
             f"- **C**: C99 or C++, no heap, no globals; one machine is one `{stem}_memory`, and "
             f"several may run side by side. `-D{prefix}_FLOAT` computes in `float`, without any "

@@ -35,7 +35,7 @@ class Target(NamedTuple):
 
     `configure` is the dialect of `configure`, which brings its own exponential function. A member
     of a struct may not be one of `words`, a local variable not one of `reserved`. `extras` are
-    files for who asks for them.
+    files for who asks for them, `fixed` those in whole numbers, none where a language has no need.
     """
 
     folder: str
@@ -44,6 +44,7 @@ class Target(NamedTuple):
     tab: int
     files: tuple[tuple[str, str], ...]
     extras: Mapping[str, tuple[tuple[str, str], ...]]
+    fixed: tuple[tuple[str, str], ...]
     statements: Statements
     reference: Mapping[str, str]
     dialect: Dialect
@@ -77,6 +78,7 @@ def load(folder: str) -> Target:
         data["tab"],
         _paths(folder, data["files"]),
         {name: _paths(folder, files) for name, files in data["extras"].items()},
+        _paths(folder, data.get("fixed", {})),
         Statements(
             (begin, go_on, end),
             (opening, closing),

@@ -77,6 +77,10 @@ class Vectors:
             ],
             "readings": self._readings("    samples->{0} = {1};", _C_ZERO),
             "from_log": self._from_log(f"    samples->{{0}} = {_C_READ};", stem),
+            "from_list": [
+                f"        samples.{m.name} = {_C_LIST[m.type].format(stem, k)};"
+                for k, m in enumerate(self.samples)
+            ],
             "to_set": [
                 f"    parameters.{name} = {stem.upper()}CONSTANT(1.0); "
                 f"/* {unit or '-'}: the model has no value, put yours */"
@@ -185,6 +189,7 @@ class Vectors:
 _C_ZERO = {"real": "0", "bool": "false", "count": "0"}
 _PYTHON_ZERO = {"real": "0.0", "bool": "False", "count": "0"}
 _C_READ = '{1}column(names, line, "{2}"){3}'
+_C_LIST = {"real": "({0}real)data[{1}]", "bool": "data[{1}] > 0.5", "count": "(int32_t)data[{1}]"}
 _PYTHON_READ = '{1}float(row["{2}"]){3}'
 #: What goes before and behind a value of a log, in C and in Python.
 _FROM_LOG = {

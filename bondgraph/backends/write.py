@@ -11,6 +11,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import re
 import stat
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Set
@@ -35,6 +36,9 @@ from bondgraph.text.whole_file import (
 
 #: Lists what was generated into a folder, with the hash of each file as it was written.
 MANIFEST = ".bondgraph.json"
+
+#: In a README what `compile --costs` has measured.
+COSTS = re.compile(r"\n## What it costs\n.*?(?=\n## |\Z)", re.DOTALL)
 
 #: A manifest has some hundred bytes a file; one of more bytes than this is not ours.
 _LARGEST = 10_000_000
@@ -64,7 +68,8 @@ def write(
     leaves everything as it was. While files are moved the manifest lists both the new and the old
     ones: wherever a process is killed, the next one knows them all as ours, and what it writes is
     whole again. Files that an earlier run wrote and this one does not are removed; what the
-    manifest does not know, what was edited since, and what is behind a link is never touched.
+    manifest does not know, what was edited since, and what is behind a link is never touched. What
+    was measured of the very same C stays in the README.
     `folder` itself may be a link: it was named by who called. Raises `ForeignFiles` if something is
     in the way, `Trouble` where another process writes there or the disk refuses while files are
     moved, OSError if it refuses before, ValueError for a path that leads out of the folder.
@@ -74,7 +79,9 @@ def write(
         if not _is_below(path):
             raise ValueError(f"{path} is not a path below the output folder")
     home = Path(folder)
-    _refuse_foreign(home, files, _manifest(home))
+    known = _manifest(home)
+    files = _with_costs(home, files, known)
+    _refuse_foreign(home, files, known)
     is_new = not home.exists()
     home.mkdir(parents=True, exist_ok=True)
     try:
@@ -103,7 +110,8 @@ def changes(
     Raises OSError for a folder that cannot be read.
     """
     home = Path(folder)
-    known, files = _manifest(home), _contents(artifacts)
+    known = _manifest(home)
+    files = _with_costs(home, _contents(artifacts), known)
     found = []
     for path, data in files.items():
         own = _hash(data)
@@ -134,6 +142,21 @@ def _contents(artifacts: Iterable[Artifact | BinaryArtifact]) -> dict[str, bytes
         a.path: a.data if isinstance(a, BinaryArtifact) else printable(a.text).encode()
         for a in artifacts
     }
+
+
+def _with_costs(
+    home: Path, files: dict[str, bytes], known: Mapping[str, set[str]]
+) -> dict[str, bytes]:
+    """The files, with the README that stands there if only the costs of the same C are more."""
+    readme = "README.md"
+    code = [path for path in files if path.endswith((".c", ".h"))]
+    if not code or readme not in files or not _stands(home, readme, known.get(readme, set())):
+        return files
+    if not all(_stands(home, path, {_hash(files[path])}) for path in code):
+        return files
+    standing = (home / readme).read_bytes()
+    same = COSTS.sub("", standing.decode("utf-8")).encode() == files[readme]
+    return {**files, readme: standing} if same else files
 
 
 def _refuse_foreign(home: Path, files: Mapping[str, bytes], known: Mapping[str, set[str]]) -> None:

@@ -19,6 +19,7 @@ from bondgraph.cli.options import (
     realised,
     sample_rate,
 )
+from bondgraph.cli.signal_ranges import ranging, with_ranges
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 
@@ -76,8 +77,9 @@ def arguments(parser: ArgumentParser) -> None:
         type=_extras,
         action="extend",
         default=[],
-        help="write more: tests, exact, example, separated by commas, each in a folder of its own;"
-        " may be repeated",
+        help="write more, separated by commas: tests, exact, example, qemu (a board to run it on),"
+        " zephyr, espidf, arduino, ros2 (what these build systems need), misra (deviations from its"
+        " rules); may be repeated",
     )
     parser.add_argument(
         "--libm",
@@ -85,11 +87,18 @@ def arguments(parser: ArgumentParser) -> None:
         help="call tanh of the mathematical library, not one that is 1e-8 near it",
     )
     parser.add_argument(
+        "--costs",
+        action="store_true",
+        help="measure what the C costs on each core whose compiler and qemu are installed: a table"
+        " in the README",
+    )
+    parser.add_argument(
         "--check",
         action="store_true",
         help="write nothing; exit with 1 if the files that are there are not what would be written",
     )
     parser.add_argument("--quiet", action="store_true", help="print findings, but no result")
+    ranging(parser)
     further(parser)
     realised(parser)
 
@@ -116,7 +125,7 @@ def run(args: Namespace) -> int:
             listed = ", ".join(every)
             print(f"error: no target is called {unknown[0]}; there are {listed}", file=sys.stderr)
             return 2
-    compilation = _opened(args)
+    compilation = with_ranges(_opened(args), args)
     _compute(compilation)
     if compilation.options.offsets:
         names = ", ".join(dict(compilation.options.offsets))
@@ -177,7 +186,9 @@ def _opened(args: Namespace) -> Compilation:
         args.bandwidth = None
     args.rate = args.rate or (Options().rate if tuning is None else tuning.rate)
     compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
-    compilation = compilation.with_options(extras=tuple(dict.fromkeys(args.extras)), libm=args.libm)
+    compilation = compilation.with_options(
+        extras=tuple(dict.fromkeys(args.extras)), libm=args.libm, costs=args.costs
+    )
     if tuning is None:
         return compilation
     try:

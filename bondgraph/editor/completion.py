@@ -212,9 +212,9 @@ def _signals(declared: Declaration) -> Iterator[Proposal]:
         yield from [Proposal(n, "signal", what) for n, what in names]
         return
     yield from (effort, flow)
-    if kind.state is not None:
-        what = "charge, displacement or volume" if kind.state == "q" else "momentum or flux"
-        yield Proposal(kind.state, "signal", what)
+    for state in kind.states:
+        what = "charge, displacement or volume" if state == "q" else "momentum or flux"
+        yield Proposal(state, "signal", what)
 
 
 def _arguments(file: FileNames, words: list[str]) -> Iterator[Proposal]:
@@ -237,9 +237,9 @@ def _arguments(file: FileNames, words: list[str]) -> Iterator[Proposal]:
         for name, declared in inner.values.items():
             if declared.kind in ("param", "const", "input", "argument"):
                 yield Proposal(name, declared.kind, _detail(declared), declared.doc, f"{name} = ")
-    elif type in KINDS and KINDS[type].state:
-        state = f"{KINDS[type].state}0"
-        yield Proposal(state, "signal", "initial state", insert=f"{state} = ")
+    elif type in KINDS:
+        for state in KINDS[type].states:
+            yield Proposal(f"{state}0", "signal", "initial state", insert=f"{state}0 = ")
 
 
 # ------------------------------------------------------------------------ units

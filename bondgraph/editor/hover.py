@@ -23,6 +23,7 @@ WORDS = {
     "0": "0-junction: one effort, the flows balance",
     "1": "1-junction: one flow, the efforts balance",
     "R": "resistor", "MR": "modulated resistor", "C": "compliance", "I": "inertia",
+    "IC": "field of inertias and compliances",
     "TF": "transformer", "MTF": "modulated transformer", "GY": "gyrator",
     "MGY": "modulated gyrator", "Se": "effort source", "MSe": "modulated effort source",
     "Sf": "flow source", "MSf": "modulated flow source", "De": "effort detector",

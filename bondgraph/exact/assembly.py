@@ -15,6 +15,7 @@ from bondgraph.exact.outline import outline
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.groups import Groups
+from bondgraph.structural.floating import references
 
 
 class Balance(NamedTuple):
@@ -147,8 +148,11 @@ class _Builder:
         final = self.share()
         self.connect(final)
         balances, laws, rates, silent = [], [], [], []
+        grounded = references(graph)
         for number, node in enumerate(graph.nodes):
-            if node.kind in ("0", "1"):
+            if number in grounded and node.common is not None:
+                laws.append((number, node.common))
+            elif node.kind in ("0", "1"):
                 balances.append(self.balance(number, node, final))
             elif node.kind in ("De", "Df"):
                 shift = int(node.kind == "De")
@@ -156,8 +160,7 @@ class _Builder:
             laws += [(number, self.flat(number, law.zero)) for law in node.laws]
             for port in node.ports:
                 if port.state is not None:
-                    value = port.flow if node.kind == "C" else port.effort
-                    rates.append(Rate(number, self.fresh(port.state), value))
+                    rates.append(Rate(number, self.fresh(port.state), port.rate))
         for item in graph.integrals:
             rates.append(Rate(-1, self.fresh(item.symbol), self.flat(-1, item.integrand)))
         reads = [s.reads for s in graph.sensors]

@@ -334,6 +334,7 @@ class Plant:
                     plant,
                     solver=wanted.solver,
                     still=attempt >= ATTEMPTS,
+                    joint=real and attempt % 2 == 1,
                     read=wanted.read,
                     turned=wanted.turned,
                 )
@@ -492,6 +493,7 @@ class Plant:
         part: Assembly,
         solver: Solver = solve,
         still: bool = False,
+        joint: bool = False,
         read: frozenset[Expr] | None = None,
         turned: bool = False,
     ) -> Trajectory:
@@ -515,7 +517,7 @@ class Plant:
         shown: tuple[Expr, ...] = ()
         if numbers.real:
             shown = (*[reads for _, _, reads in told_sensors], *self._inside(part, self._asked))
-        setting = Setting(true, numbers, n, shown, still)
+        setting = Setting(true, numbers, n, shown, still, joint)
         try:
             plant, equations = written(part, setting, readings, random, solver is solve)
             values = solver(plant, equations, setting, random, order + self._reach)
@@ -562,6 +564,7 @@ class Plant:
                     numbers,
                     now.part,
                     still=now.still,
+                    joint=numbers.real and attempt % 2 == 1,
                     read=now.read,
                 )
         self.momentary.append(now.part)

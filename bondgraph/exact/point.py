@@ -15,6 +15,7 @@ from random import Random
 
 from bondgraph.exact.evaluate import chosen, evaluate, solve, values_of
 from bondgraph.exact.forms import Form, Forms, NotLinear
+from bondgraph.exact.knots import together
 from bondgraph.exact.known import KnownSample, gradient
 from bondgraph.exact.outline import plan
 from bondgraph.exact.plant_equations import (
@@ -198,6 +199,11 @@ class Point:
                 if solved is not None:
                     pending = [item for item in pending if item[0] != solved]
                     continue
+                if self.setting.joint:
+                    values = together(self, [e for _, e in pending], STRIDE)
+                    for column, value in values.items():
+                        self.fix({column: 1}, value)
+                    return
                 self.choose(block, law)
             pending = left
 

@@ -188,6 +188,9 @@ FUNCTIONS: dict[str, Function] = {
 #: x |x|, as one function.
 SIGNED_SQUARE = next(name for name, f in FUNCTIONS.items() if f.odd == 2)
 
+#: The root of |x| with the sign of x.
+SIGNED_ROOT = next(name for name, f in FUNCTIONS.items() if f.inverse == SIGNED_SQUARE)
+
 
 def root(power: int) -> str | None:
     """The function that undoes a power of any number; an even power is that of two.

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from bondgraph.ir.expr import Expr, Kind, Pool, Symbol
 from bondgraph.ir.unit import Dimension
@@ -25,17 +25,29 @@ if TYPE_CHECKING:
 class Port(NamedTuple):
     """One port of an element.
 
-    `name` is "" for a one-port, "1"/"2" for a two-port, the declared name for a field. `state` is
-    q of a C port or p of an I port (with state' = f or e), `initial` the SYM of its declared
-    initial value and `initial_value` its expression.
+    `name` is "" for a one-port, "1"/"2" for a two-port, the declared name for a field. `stores`
+    says what the port accumulates: "q" of a C (q' = f), "p" of an I (p' = e), "" for nothing; each
+    port of an IC has its own. `state` is its symbol, `initial` the SYM of its declared initial
+    value and `initial_value` its expression.
     """
 
     name: str
     effort: Expr
     flow: Expr
+    stores: Literal["q", "p", ""] = ""
     state: Expr | None = None
     initial: Expr | None = None
     initial_value: Expr | None = None
+
+    @property
+    def rate(self) -> Expr:
+        """What the state of a storage port is the integral of."""
+        return self.flow if self.stores == "q" else self.effort
+
+    @property
+    def output(self) -> Expr:
+        """What a storage port gives in integral causality."""
+        return self.effort if self.stores == "q" else self.flow
 
 
 class Law(NamedTuple):
@@ -50,9 +62,9 @@ class Law(NamedTuple):
 class Node(NamedTuple):
     """A junction or an element.
 
-    `kind` is one of 0 1 R C I TF GY Se Sf De Df; `keyword` as written (MSe, MTF, ...). A junction
-    has no ports but `common`: its common effort (0) or flow (1). A source has a law `e - value`
-    (or f), a detector none: its `sensor` is what it reads. `when` is the mode of a switched
+    `kind` is one of 0 1 R C I IC TF GY Se Sf De Df; `keyword` as written (MSe, MTF, ...). A
+    junction has no ports but `common`: its common effort (0) or flow (1). A source has a law `e -
+    value` (or f), a detector none: its `sensor` is what it reads. `when` is the mode of a switched
     junction. `direct` marks the laws that are linear with constant coefficients.
     """
 

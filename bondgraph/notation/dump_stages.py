@@ -143,9 +143,8 @@ def _node_rows(node: Node) -> list[tuple[str, str, str]]:
         rows.append(("", "0 =", show(law.zero)))
     for port in node.ports:
         if port.state is not None:
-            rate = port.flow if node.kind == "C" else port.effort
             start = "" if port.initial_value is None else f", from {show(port.initial_value)}"
-            rows.append(("", f"D({show(port.state)}) =", show(rate) + start))
+            rows.append(("", f"D({show(port.state)}) =", show(port.rate) + start))
     if node.sensor is not None:
         rows.append(("", "reads", show(node.sensor)))
     if node.when is not None:

@@ -43,6 +43,9 @@ export function roomy(least, most) {
 // The largest of 1, 2, 5 times a power of ten that is not above.
 export const nice = (x) => { const p = 10 ** Math.floor(Math.log10(x)); return [1, 2, 5].map((m) => m * p).findLast((s) => s <= x) ?? p; };
 
+// uPlot remembers where a chart is until the window scrolls; a page that moves it otherwise has to say so.
+const here = (plot, _, does) => (event) => { plot.syncRect(); does(event); };
+
 // A chart of some lines; all charts of a page share the cursor.
 export function chart(into, { unit, scales = {}, cursor = {}, ...options }, data) {
   return new uPlot({
@@ -50,7 +53,7 @@ export function chart(into, { unit, scales = {}, cursor = {}, ...options }, data
     axes: axes(unit),
     legend: { show: false },
     scales: { ...scales, x: { time: false, ...scales.x } },
-    cursor: { y: false, sync: { key: KEY }, drag: { x: true, y: false }, points: { size: 6 }, ...cursor },
+    cursor: { y: false, sync: { key: KEY }, drag: { x: true, y: false }, points: { size: 6 }, ...cursor, bind: { mousemove: here, mouseenter: here, ...cursor.bind } },
   }, data, into);
 }
 

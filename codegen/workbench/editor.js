@@ -158,6 +158,17 @@ export class Editor {
     return Math.min(found.from + character, found.to);
   }
 
+  // Where the cursor is, in the same way.
+  position() {
+    const { head } = this.view.state.selection.main, line = this.view.state.doc.lineAt(head);
+    return { line: line.number - 1, character: head - line.from };
+  }
+
+  // Changes of the text, as editors tell them.
+  put(edits) {
+    this.view.dispatch({ changes: edits.map((e) => ({ from: this.at(e.range.start), to: this.at(e.range.end), insert: e.newText })), userEvent: "input" });
+  }
+
   // Findings as `check` has them: marked in the text, and listed below it.
   tell(diagnostics, uri) {
     const marks = [];
@@ -177,7 +188,7 @@ export class Editor {
     const item = $("problems").querySelectorAll("li")[k];
     if (!item) return;
     item.append(make("p", { class: "remedies" }, ...remedies.map(([title, edits]) => make("button", { type: "button", class: "chip", onclick: () => {
-      this.view.dispatch({ changes: edits.map((e) => ({ from: this.at(e.range.start), to: this.at(e.range.end), insert: e.newText })) });
+      this.put(edits);
       this.view.focus();
     } }, title))));
   }

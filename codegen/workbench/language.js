@@ -1,5 +1,6 @@
-// The language server behind the editor: findings, completions, what stands under the pointer.
+// The language server behind the editor: findings, completions, names, what stands under the pointer.
 import * as cm from "./vendored.js";
+import { $ } from "./dom.js";
 
 const FIXED = 20; // findings whose remedies are asked for
 const PLAIN = new Set(["P", "CODE", "PRE", "EM", "STRONG", "UL", "OL", "LI", "BR", "HR", "H1", "H2", "H3", "H4", "SPAN", "TABLE", "THEAD", "TBODY", "TR", "TH", "TD", "BLOCKQUOTE"]);
@@ -10,9 +11,9 @@ function plain(html) {
 }
 
 export class LanguageServer {
-  // `tell` gets the findings of the newest text.
-  constructor(editor, uri, tell) {
-    Object.assign(this, { editor, uri, tell, client: null, tries: 0 });
+  // `tell` gets the findings of the newest text, `refuse` why a name cannot be another one.
+  constructor(editor, uri, tell, refuse) {
+    Object.assign(this, { editor, uri, tell, refuse, client: null, tries: 0 });
     this.connect();
   }
 
@@ -27,7 +28,7 @@ export class LanguageServer {
         timeout: 15000,
         sanitizeHTML: plain,
         notificationHandlers: { "textDocument/publishDiagnostics": (client, found) => this.found(client, found) },
-        extensions: [cm.serverCompletion(), cm.hoverTooltips({ hoverTime: 350 }), cm.signatureHelp(), cm.keymap.of([...cm.jumpToDefinitionKeymap, ...cm.findReferencesKeymap]),
+        extensions: [cm.serverCompletion(), cm.hoverTooltips({ hoverTime: 350 }), cm.signatureHelp(), cm.keymap.of([...cm.jumpToDefinitionKeymap, ...cm.findReferencesKeymap, { key: "F2", preventDefault: true, run: () => { this.rename(); return true; } }]),
           { clientCapabilities: { textDocument: { publishDiagnostics: { versionSupport: true, relatedInformation: true } } } }],
       });
       this.client.connect({ send: (text) => socket.send(text), subscribe: (f) => heard.add(f), unsubscribe: (f) => heard.delete(f) });
@@ -42,6 +43,31 @@ export class LanguageServer {
 
   // What was typed goes there at once, not after a while.
   sync() { this.client?.sync(); }
+
+  // Asks for another name of what stands at the cursor, and puts it at all its places.
+  async rename() {
+    const { client, editor, uri } = this, textDocument = { uri }, position = editor.position();
+    client.sync();
+    const range = await client.request("textDocument/prepareRename", { textDocument, position }).catch(() => null);
+    if (!range) { this.refuse("Nothing that has a name stands at the cursor."); return; }
+    const input = $("rename").querySelector("input"), old = editor.view.state.sliceDoc(editor.at(range.start), editor.at(range.end));
+    input.value = old;
+    $("rename").returnValue = "";
+    $("rename").onclose = async () => {
+      editor.view.focus();
+      const newName = input.value.trim();
+      if ($("rename").returnValue !== "ok" || newName === old) return;
+      client.sync();
+      try {
+        const { changes = {} } = (await client.request("textDocument/rename", { textDocument, position, newName })) || {};
+        const others = Object.keys(changes).filter((other) => other !== uri).map((other) => decodeURIComponent(other.split("/").at(-1)));
+        if (others.length) this.refuse(`Not renamed: ${old} stands in ${others.join(", ")} as well, which this page does not write.`);
+        else editor.put(changes[uri] || []);
+      } catch (error) { this.refuse(`Not renamed: ${error.message}`); }
+    };
+    $("rename").showModal();
+    input.select();
+  }
 
   found(client, { uri, version, diagnostics }) {
     const file = client.workspace.getFile(uri);

@@ -82,13 +82,14 @@ const heard = {
     if (found.version !== version) return;
     derived = found;
     fade(false);
-    residuals.show(found, { light, chip });
+    residuals.show(found, { light, chip, derive: (name) => send({ do: "derive", name }) });
     signatures.show(found, { light, inject: (fault) => { panes.show("trial"); trial.suggest(fault); } });
     shown([], [], []);
     trial.begin(found);
     state(found.status === "wrong" ? "wrong" : "ready", found.status === "wrong" ? "no residuals" : found.message);
     relight();
   },
+  derivation(found) { if (found.version === version) residuals.derived(found, light); },
   run(run) { trial.heard(run); },
   failed(message) {
     answered = Math.max(answered, message.version);
@@ -134,7 +135,7 @@ function begin() {
   let kept = null;
   try { kept = JSON.parse(localStorage.getItem(draft())); } catch { /* private, or damaged */ }
   editor = new Editor(hello.words, typed, relight);
-  server = new LanguageServer(editor, hello.uri, (found, uri) => editor.tell(found, uri));
+  server = new LanguageServer(editor, hello.uri, (found, uri) => editor.tell(found, uri), (why) => notice(why));
   [saved, digest] = [hello.text, hello.digest];
   editor.replace(hello.text);
   if (kept && kept.digest === digest && kept.text !== saved && typeof kept.text === "string") {

@@ -35,6 +35,7 @@ _FENCE = re.compile(r"^( *)(```+).*?^\1\2 *$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"(\]\()([^)\s]+)(\))")
 _ELSEWHERE = re.compile(r"(?:url\(|@import)\s*['\"]?((?:https?:)?//[^'\")]+)")
 _ORPHAN = "---\norphan: true\n---\n"
+_INSTALLED = {"node_modules", "dist"}  # folders of what others wrote, and of what is built
 
 #: Names of Python in the order in which a reader meets them, from where they are.
 INTERFACE = {
@@ -185,7 +186,7 @@ class Stage:
         """What is in a folder, with links to what a person reads."""
         lines = []
         for entry in sorted(folder.iterdir()):
-            if entry.name.startswith((".", "__")):
+            if entry.name.startswith((".", "__")) or entry.name in _INSTALLED:
                 continue
             read = entry.is_dir() or entry.name.endswith((".bg", ".md", ".toml", ".c"))
             where = relative(self.place(entry), self.wanted[folder].parent) if read else ""

@@ -81,6 +81,33 @@ PLANTS = [
         consts={"x0": 1.4},
     ),
     Plant(
+        "solenoid",
+        model("solenoid"),
+        equations=(
+            "U - R*i - D(flux); flux - 2*K*i/g; D(g) - v; weight - flux**2/(4*K) - D(p); p - m*v; "
+            "weight - w"
+        ),
+        sensors={"i": "i", "v": "v"},
+        n_arr=2,
+        params="R K m w",
+        inputs="U",
+        starts={"flux": "0.5", "g": "gap0"},
+        consts={"gap0": 1.3},
+    ),
+    Plant(
+        "reluctance",
+        model("reluctance"),
+        equations=(
+            "U - R*i - D(flux); flux - i*(L0 + L1*cos(a)); D(a) - w; "
+            "-D(h) - b*w - load - i**2*L1*sin(a)/2; h - J*w"
+        ),
+        sensors={"i": "i", "w": "w"},
+        n_arr=2,
+        params="R L0 L1 J b",
+        inputs="U load",
+        starts={"a": "0.3"},
+    ),
+    Plant(
         "rigid_body",
         model("rigid_body"),
         equations=(

@@ -44,6 +44,21 @@ PLANTS = [
         inputs="U",
     ),
     Plant(
+        "bridge_rectifier",
+        model("bridge_rectifier"),
+        equations=(
+            "U - R*i - D(h) - va + vb; h - L*i; "
+            "i + s*(exp(-va/t) - 1) - s*(exp((va - v)/t) - 1); "
+            "s*(exp(-vb/t) - 1) - s*(exp((vb - v)/t) - 1) - i; "
+            "s*(exp((va - v)/t) - 1) + s*(exp((vb - v)/t) - 1) - G*v - D(q); q - C*v"
+        ),
+        sensors={"i": "i", "u": "v"},
+        n_arr=2,
+        params="L R C G s",
+        inputs="U",
+        consts={"t": 0.9},
+    ),
+    Plant(
         "nested_roots",
         model("nested_roots"),
         equations="U - tanh(a*f) - f - u; f - g*u - tanh(u) - k; u - R*k - q/C; D(q) - k",

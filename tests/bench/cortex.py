@@ -1,4 +1,4 @@
-"""The step of the robot on a Cortex-M4F: instructions in qemu, bytes of code and memory."""
+"""The step of the robot on a Cortex-M: instructions in qemu, bytes of code and memory."""
 
 from __future__ import annotations
 
@@ -9,14 +9,30 @@ from pathlib import Path
 from typing import NamedTuple
 
 import bondgraph
+from bondgraph.backends.templates import codegen, fill
+from tests.unit.backends.fixed_models import RANGES
 
 ROOT = Path(__file__).parents[2]
+ROBOT = ROOT / "models" / "khepera.bg"
 BOARD = Path(__file__).parent / "cortex_m4"
-STEPS, CLOCK = 10_000, 40  # as in main.c; ns, and so instructions, of a tick of the timer
+STEPS = 10_000  # as in main.c
 TOOLS = ("arm-none-eabi-gcc", "arm-none-eabi-nm", "qemu-system-arm")
-_CORE = "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard".split()
 _LINK = "-nostartfiles --specs=nano.specs --specs=nosys.specs -Wl,--gc-sections".split()
-_BOARD = "-M mps2-an386 -icount shift=0 -nographic -monitor none -serial none".split()
+_BOARD = "-icount shift=0 -nographic -monitor none -serial none".split()
+
+
+class Board(NamedTuple):
+    """A machine of qemu, what gcc has to know of its core, and what the code computes with."""
+
+    machine: str
+    core: str
+    defines: str
+
+
+M4F = Board(
+    "mps2-an386", "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard", "-DKHEPERA_FLOAT"
+)
+M3 = Board("mps2-an385", "-mcpu=cortex-m3 -mthumb", "-DFIXED")
 
 
 class OnBoard(NamedTuple):
@@ -36,24 +52,37 @@ def missing() -> list[str]:
 
 def measured() -> OnBoard:
     """The five residuals of the robot in float, at -O2."""
+    return _measured(bondgraph.compile(ROBOT), M4F, _CALLED)
+
+
+def measured_fixed() -> OnBoard:
+    """The same in whole numbers, on a core without any floating point."""
+    c = bondgraph.compile(ROBOT, real="fixed", ranges=RANGES["khepera"])
+    return _measured(c, M3, _CALLED_FIXED)
+
+
+def _measured(c: bondgraph.Compilation, board: Board, called: list[str]) -> OnBoard:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        bondgraph.compile(ROOT / "models" / "khepera.bg").write(folder, targets=["c"])
-        code = ["-DKHEPERA_FLOAT", "-DKHEPERA_NO_THRESHOLDS", f"-I{folder}"]
-        flags = [*_CORE, "-O2", "-ffunction-sections", "-fdata-sections", *code]
-        files = [str(BOARD / "main.c"), str(folder / "khepera.c")]
-        script, image = ["-T", str(BOARD / "link.ld")], str(folder / "image.elf")
+        c.write(folder, targets=["c"])
+        code = [board.defines, "-DKHEPERA_NO_THRESHOLDS", f"-I{folder}"]
+        flags = [*board.core.split(), "-O2", "-ffunction-sections", "-fdata-sections", *code]
+        start = codegen() / "c" / "costs" / "board.c"
+        files = [str(BOARD / "main.c"), str(start), str(folder / "khepera.c")]
+        (folder / "link.ld").write_text(fill("c/qemu/link.ld.j2", {}), encoding="utf-8")
+        script, image = ["-T", str(folder / "link.ld")], str(folder / "image.elf")
         link = [*_LINK, *script, "-lm", "-lc", "-lgcc"]
         gcc = ["arm-none-eabi-gcc", "-std=gnu99", *flags, *files, *link, "-o", image]
         subprocess.run(gcc, check=True, capture_output=True)
         host = ["-semihosting-config", "enable=on,target=native"]
-        told = _run("qemu-system-arm", *_BOARD, *host, "-kernel", image)
+        machine = ["-M", board.machine, *_BOARD]
+        told = _run("qemu-system-arm", *machine, *host, "-kernel", image)
         whole, empty, valid = (int(word) for word in told.split() if word.isdigit())
         assert valid == 1, "the filter has not settled"
         sizes = _sizes(image)
-    text = sum(sizes.get(name, 0) for name in _CALLED)
+    text = sum(sizes.get(name, 0) for name in called)
     return OnBoard(
-        (whole - empty) * CLOCK / STEPS,
+        (whole - empty) / STEPS,
         text,
         sizes["khepera_nominal_coefficients"],
         sizes["memory"],
@@ -63,6 +92,7 @@ def measured() -> OnBoard:
 #: What a step is made of, where the compiler has not put it into `khepera_step`.
 _CALLED = ("khepera_step near_tanh count_samples bring_up_to_date run_r1 run_r2 run_r3 run_r4"
            " run_r5 number.0 part.1").split()  # fmt: skip
+_CALLED_FIXED = "khepera_step tanh_of tanh_of.constprop.0 cubics number.0 part.1".split()
 
 
 def _run(*command: str) -> str:
@@ -86,4 +116,10 @@ def report() -> None:
         f"Cortex-M4F, float, -O2: {found.instructions:.0f} instructions a step <= 350, "
         f"{found.text} bytes of code <= 2048, {found.coefficients} of coefficients in flash, "
         f"{found.memory} of RAM a robot <= 120"
+    )
+    found = measured_fixed()
+    print(
+        f"Cortex-M3, fixed point, -O2: {found.instructions:.0f} instructions a step <= 600, "
+        f"{found.text} bytes of code, {found.coefficients} of coefficients in flash, "
+        f"{found.memory} of RAM a robot"
     )

@@ -45,6 +45,12 @@ def test_a_step_on_the_board_is_small() -> None:
     assert found.instructions <= 350 and found.text <= 2048 and found.memory <= 120
 
 
+@pytest.mark.skipif(bool(cortex.missing()), reason="needs gcc-arm-none-eabi and qemu-system-arm")
+def test_a_step_in_whole_numbers_is_small() -> None:
+    found = cortex.measured_fixed()
+    assert found.instructions <= 600 and found.memory <= 120
+
+
 @pytest.mark.skipif(
     shutil.which("gcc") is None or shutil.which("valgrind") is None, reason="needs gcc, valgrind"
 )

@@ -25,10 +25,15 @@ _BLOCK = re.compile(
 _SHOWN = {"", "text", "math", "ebnf", "c"}
 
 
+#: Programs that commands of the pages begin with and that may be missing.
+_TOOLS = re.compile(r"^(cc|arm-none-eabi-gcc|qemu-system-arm) ", re.MULTILINE)
+
+
 @pytest.mark.parametrize("page", RUN, ids=named)
 def test_a_page_does_what_it_says(page: Path, tmp_path: Path, update: bool) -> None:
-    if "\ncc " in page.read_text(encoding="utf-8") and shutil.which("cc") is None:
-        pytest.skip("no C compiler")
+    for tool in _TOOLS.findall(page.read_text(encoding="utf-8")):
+        if shutil.which(tool) is None:
+            pytest.skip(f"{tool} is not installed")
     assert run(page, tmp_path, update) > 0
 
 

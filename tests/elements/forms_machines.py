@@ -174,6 +174,41 @@ FORMS = [
         ],
     ),
     Form(
+        "solenoid",
+        "electrical, translation",
+        FIELDS,
+        [
+            Relation(
+                "voltage law of the coil, whose inductance is 2 K over the gap",
+                "g = Int(v, gap0); U - R*i - D(2*K*i/g, 1)",
+                "R K U i v",
+            ),
+            Relation(
+                "forces on the ball: its weight, the pull of the magnet",
+                "g = Int(v, gap0); w - K*i**2/g**2 - m*D(v, 1)",
+                "K m w i v",
+            ),
+        ],
+    ),
+    Form(
+        "reluctance",
+        "electrical, rotation",
+        FIELDS,
+        [
+            Relation(
+                "voltage law of the phase, whose inductance goes with the angle",
+                "a = Int(w, 3/10); U - R*i - D(i*(L0 + L1*cos(a)), 1)",
+                "R L0 L1 U i w",
+            ),
+            Relation(
+                "torques on the shaft; half the square of the current times the rate at which the "
+                "inductance changes turns it",
+                "a = Int(w, 3/10); -L1*sin(a)*i**2/2 - load - b*w - J*D(w, 1)",
+                "L1 J b load i w",
+            ),
+        ],
+    ),
+    Form(
         "microphone",
         "electrical, acoustic",
         FIELDS,

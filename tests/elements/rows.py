@@ -87,6 +87,13 @@ ROWS = [
     Row(
         "Elements", "C field, mixed causality (condenser microphone)", "electrical, acoustic", "mic"
     ),
+    Row("Elements", "IC field: magnet and ball", "electrical, translation", "solenoid"),
+    Row(
+        "Elements",
+        "IC field: reluctance motor, its flux at the start not known",
+        "electrical, rotation",
+        "reluctance",
+    ),
     Row("Elements", "C field of mass and energy of a gas, inverted", "thermofluid", "gas_tank"),
     Row(
         "Elements",
@@ -188,6 +195,7 @@ ROWS = [
     Row("Loops", "odd cycle of gyrators with resistors", "electrical", "gyrator_cycle3_res"),
     Row("Loops", "nonlinear loop, one Newton block", "electrical", "cubic_parallel"),
     Row("Loops", "nonlinear node of diodes", "electrical", "node_of_diodes"),
+    Row("Loops", "bridge of four diodes, not grounded", "electrical", "bridge_rectifier"),
     Row("Loops", "root inside a root", "electrical", "nested_roots"),
     Row("Loops", "two laws without inverse at one node", "hydraulic", "two_tanh"),
     Row("Loops", "diode and storage behind one node", "electrical", "diode_loop"),

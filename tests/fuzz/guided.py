@@ -8,13 +8,14 @@ passed, or one more often. A process that libFuzzer had to end is begun again wi
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import re
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from importlib import import_module
 from importlib.util import find_spec
@@ -27,16 +28,19 @@ from tests.fuzz.attempt import Finding, Kind, attempt, smallest
 from tests.fuzz.counts import Counts
 from tests.fuzz.mutate import ROOT
 from tests.fuzz.targets import KINDS
-from tests.measured import write
+from tests.measured import LEDGER, commit, write
 
 KEPT = Path(__file__).with_name("corpus")
 _BROKE = ROOT / "build" / "fuzz"  # where the texts of findings go
 _SECONDS = 20  # that no text may take
 _MEMORY = 1024  # MB that all of them together may add
 _ENDS = 10  # processes of a kind that libFuzzer had to end, then it is enough
-#: Texts of a whole campaign, by kind; of all others 100 000.
+#: Texts of a whole campaign, by kind, and of all others.
 _COUNTS = {"check": 1_000_000, "compile": 10_000}
+_OTHERS = 100_000
 _CORPUS = 40_000  # bytes that are kept of a kind
+#: What a campaign has found so far, by kind: a run of some hours at a time, each with its commit.
+_LEDGER = ROOT / LEDGER
 
 
 class Result(NamedTuple):
@@ -55,7 +59,8 @@ class Result(NamedTuple):
 
 class Run(NamedTuple):
     """What is asked for: texts of a KIND of a module, by a seed, each within seconds, all of them
-    within so many MB more; whether the corpus is to be made anew from what was found."""
+    within so many MB more; whether the corpus is to be made anew from what was found. `minutes`
+    end it before its count."""
 
     kind: str
     count: int
@@ -64,6 +69,7 @@ class Run(NamedTuple):
     seconds: int = _SECONDS
     memory: int = _MEMORY
     keep: bool = False
+    minutes: float | None = None
 
 
 def run(asked: Run) -> Result:
@@ -84,9 +90,14 @@ def run(asked: Run) -> Result:
         while (left := asked.count - counts.read()[0]) > 0 and len(ended) < _ENDS:
             options = [f"-atheris_runs={left}", f"-seed={asked.seed + len(ended)}",
                        f"-timeout={asked.seconds}", "grown", "seeds"]  # fmt: skip
+            if asked.minutes is not None:
+                rest = start + 60 * asked.minutes - time.perf_counter()
+                if rest < 1:
+                    break
+                options.append(f"-max_total_time={round(rest)}")
             status, said = _process(asked, folder, options)
             branches = max([branches, *(int(n) for n in re.findall(r" cov: (\d+) ", said))])
-            if counts.read()[0] < asked.count:
+            if counts.read()[0] < asked.count and status != 0:
                 ended.append(_end(folder, status, said))
         found = [*ended, *_broken(folder / "findings")]
         answers = len((folder / "answers").read_text("utf-8").splitlines())
@@ -167,15 +178,50 @@ def _digest(text: bytes) -> str:
     return sha256(text).hexdigest()[:12]
 
 
-def table(found: Sequence[Result]) -> str:
-    """What was found, for a page of the documentation."""
-    rows = ["| kind | texts | sound | answers | branches | findings | slowest | memory |",
-            "|---|---|---|---|---|---|---|---|"]  # fmt: skip
-    rows += [
-        f"| {r.kind} | {r.texts:,} | {r.sound:,} | {r.answers:,} | {r.branches:,}"
-        f" | {len(r.findings)} | {r.slowest:.2f} s | {r.memory:.0f} MB |"
-        for r in found
-    ]
+class Entry(NamedTuple):
+    """What the ledger keeps of a run."""
+
+    commit: str
+    texts: int
+    sound: int
+    answers: int
+    branches: int
+    findings: list[str]
+    slowest: float
+    memory: float
+
+
+def ledger() -> dict[str, list[Entry]]:
+    """The runs of the campaign so far, by kind."""
+    kept = json.loads(_LEDGER.read_text("utf-8")) if _LEDGER.exists() else {}
+    return {kind: [Entry(**entry) for entry in kept.get(kind, [])] for kind in KINDS}
+
+
+def enter(found: Result) -> None:
+    """Write a run into the ledger, and the table of all runs into the documentation."""
+    every = ledger()
+    whats = [f.what for f in found.findings]
+    every[found.kind].append(
+        Entry(commit(), found.texts, found.sound, found.answers, found.branches, whats,
+              round(found.slowest, 2), round(found.memory))
+    )  # fmt: skip
+    kept = {kind: [e._asdict() for e in entries] for kind, entries in every.items() if entries}
+    _LEDGER.write_text(json.dumps(kept, indent=1) + "\n", "utf-8")
+    write(ROOT / "docs" / "trust.md", "python -m tests.fuzz.guided --campaign", table(every))
+
+
+def table(every: Mapping[str, Sequence[Entry]]) -> str:
+    """What was found by all runs, for a page of the documentation; most of answers and branches."""
+    columns = "kind texts of runs sound answers branches findings slowest memory".split()
+    rows = [f"| {' | '.join(columns)} |", "|---" * len(columns) + "|"]
+    for kind, entries in every.items():
+        texts, sound = sum(e.texts for e in entries), sum(e.sound for e in entries)
+        most = [max((e[k] for e in entries), default=0) for k in (3, 4, 6, 7)]
+        rows.append(
+            f"| {kind} | {texts:,} | {_COUNTS.get(kind, _OTHERS):,} | {len(entries)} | {sound:,}"
+            f" | {most[0]:,} | {most[1]:,} | {sum(len(e.findings) for e in entries)}"
+            f" | {most[2]:.2f} s | {most[3]:.0f} MB |"
+        )
     return "\n".join(rows)
 
 
@@ -204,25 +250,31 @@ def main() -> int:
     parser.add_argument("--count", type=int, help="of each kind (default: those of a campaign)")
     parser.add_argument("--share", type=float, default=1.0, help="of a campaign")
     parser.add_argument("--jobs", type=int, default=1, help="kinds at a time")
-    parser.add_argument("--write", action="store_true", help="put the table into docs/trust.md")
+    parser.add_argument("--campaign", action="store_true",
+                        help="what is missing of a campaign; its table goes into docs/trust.md")
+    parser.add_argument("--minutes", type=float, help="a kind takes at most")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", action="store_true", help="make the corpus anew from all of it")
     args = parser.parse_args()
     if find_spec("atheris") is None:
         parser.error("atheris is not installed: it has wheels for Python 3.11 to 3.13 on Linux")
-    asked = [
-        Run(n, args.count or round(_COUNTS.get(n, 100_000) * args.share), args.seed, keep=args.keep)
-        for n in args.kinds or KINDS
-    ]
-    every = []
+    done = ledger() if args.campaign else {}
+    asked = []
+    for kind in args.kinds or KINDS:
+        entries = done.get(kind, [])
+        count = args.count or round(_COUNTS.get(kind, _OTHERS) * args.share)
+        count -= sum(e.texts for e in entries)
+        seed = args.seed + 1000 * len(entries)  # a run that is ended goes on with the next seed
+        if count > 0:
+            asked.append(Run(kind, count, seed, keep=args.keep, minutes=args.minutes))
+    broken = False
     with ThreadPool(args.jobs) as pool:
-        for found in pool.imap(run, asked, 1):
-            every.append(found)
+        for found in pool.imap_unordered(run, asked, 1):
             _tell(found)
-    if args.write:
-        command = f"python -m tests.fuzz.guided --share {args.share:g} --write"
-        write(ROOT / "docs" / "trust.md", command, table(every))
-    return 1 if any(r.findings for r in every) else 0
+            broken |= bool(found.findings)
+            if args.campaign:
+                enter(found)
+    return int(broken)
 
 
 if __name__ == "__main__":

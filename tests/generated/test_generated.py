@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 
 import bondgraph
+from bondgraph.backends.costs import CORES, missing
+from bondgraph.backends.write import COSTS
 from bondgraph.backends.emit import EXTRAS
 from bondgraph.backends.identifiers import snake
-from bondgraph.backends.write import write
 from bondgraph.ir.artifact import Artifact
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
@@ -50,11 +51,29 @@ def test_is_what_is_committed(model: str, update: bool) -> None:
     _, artifacts = _artifacts(model)
     folder = _ROOT / "generated" / model
     if update and artifacts:
-        write(artifacts, folder)
+        _compilation(model).with_options(costs=True).write(folder)
     for artifact in artifacts:
         path = folder / artifact.path
         assert path.is_file(), f"{path.relative_to(_ROOT)} is not there: run `make update`"
-        assert path.read_text(encoding="utf-8") == artifact.text
+        assert COSTS.sub("", path.read_text(encoding="utf-8")) == artifact.text
+
+
+@pytest.mark.parametrize("model", ["dc_motor", "khepera"])
+def test_costs_are_those_that_are_committed(model: str) -> None:
+    """To the instruction and to the byte, on all cores."""
+    absent = [tool for core in CORES for tool in missing(core)]
+    if absent:
+        pytest.skip(f"{', '.join(absent)} not installed")
+    found = {a.path: a.text for a in _compilation(model).with_options(costs=True).artifacts}
+    ours, committed = (
+        COSTS.findall(text)
+        for text in (found["README.md"], (_ROOT / "generated" / model / "README.md").read_text())
+    )
+    assert len(committed) == 1 and "Not measured" not in committed[0]
+    compilers = [re.findall(r"gcc [\d.]+", text[0]) for text in (ours, committed)]
+    if compilers[0] != compilers[1]:
+        pytest.skip(f"the table is of other compilers: {compilers[1]}")
+    assert ours == committed
 
 
 def _everything(model: str, folder: Path) -> str:

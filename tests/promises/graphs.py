@@ -10,6 +10,7 @@ from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import CONSTANTS, KNOWN_SIGNALS, Expr, Kind, Op, below, symbols, variables
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.passes.causality.rules import closing
+from bondgraph.structural.floating import references
 from bondgraph.text.source import Span
 from tests.promises.check import promise
 
@@ -93,7 +94,7 @@ def _unlike_its_kind(node: Node) -> Iterator[str]:
         yield "sensor"
     if node.when is not None and node.kind not in ("0", "1"):
         yield "`when` at an element"
-    if any((p.state is not None) != (node.kind in ("C", "I")) for p in node.ports):
+    if any((p.state is not None) != (node.kind in ("C", "I", "IC")) for p in node.ports):
         yield "states"
     if any((p.initial is None) != (p.initial_value is None) for p in node.ports):
         yield "initial value"
@@ -257,11 +258,11 @@ def storages_are_told_as_their_strokes_stand(causal: CausalGraph) -> Iterator[st
         yield "a storage is told twice"
     stands: dict[tuple[int, int], bool] = {}
     for number, ends in enumerate(_ends(graph)):
-        kind = graph.nodes[number].kind
-        for e in ends if kind in ("C", "I") else ():
+        node = graph.nodes[number]
+        for e in ends if node.kind in ("C", "I", "IC") else ():
             bond = graph.bonds[e >> 1]
             port = (bond.head if e & 1 else bond.tail).port
-            stands[number, port] = _receives_effort(causal, e) == (kind == "I")
+            stands[number, port] = _receives_effort(causal, e) == (node.ports[port].stores == "p")
     for at in sorted(told.keys() | stands.keys()):
         if told.get(at) != stands.get(at):
             yield f"port {at[1]} of {graph.nodes[at[0]].path}"
@@ -270,7 +271,7 @@ def storages_are_told_as_their_strokes_stand(causal: CausalGraph) -> Iterator[st
 _CAUSES: dict[str, tuple[str, ...]] = {
     "source": ("Se", "Sf"),
     "sensor": ("De", "Df"),
-    "preferred": ("C", "I"),
+    "preferred": ("C", "I", "IC"),
     "ring": ("0", "1"),
     "switched": ("0", "1"),
     "propagated": ("0", "1", "TF", "GY"),
@@ -330,12 +331,16 @@ def variables_are_those_of_the_expression(system: EquationSystem) -> Iterator[st
 
 @promise("EquationSystem")
 def equations_are_counted(system: EquationSystem) -> Iterator[str]:
-    """One balance a junction, the laws and states of each element, one a sensor and an integral."""
+    """One balance a junction, the laws and states of each element, one a sensor and an integral.
+
+    The junction that grounds a floating network has none: it follows from the others.
+    """
     graph = system.graph
+    grounds = references(graph)
     own = Counter((e.kind, e.node) for e in system.equations)
     for number, node in enumerate(graph.nodes):
         for kind, wanted in (
-            ("balance", int(node.kind in ("0", "1"))),
+            ("balance", int(node.kind in ("0", "1") and number not in grounds)),
             ("law", len(node.laws)),
             ("state", sum(p.state is not None for p in node.ports)),
         ):

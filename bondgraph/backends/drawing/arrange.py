@@ -35,7 +35,8 @@ class Figure(NamedTuple):
 
 def arrange(scene: Scene) -> tuple[Figure, frozenset[Path]]:
     """The figure, and the submodels whose frames would enclose what is not theirs."""
-    blocks = [_block(scene, layers) for layers in parts(list(scene.skeleton), list(scene.links))]
+    layered = parts(list(scene.skeleton), list(scene.links), scene.hangs)
+    blocks = [_block(scene, layers) for layers in layered]
     places = _shelves([box for _, _, box in blocks])
     centre: dict[int, Point] = {}
     tags: dict[int, Point] = {}
@@ -150,11 +151,11 @@ def _steps(scene: Scene, layers: Layers) -> list[float]:
 
 
 def _pairs(layers: Layers) -> list[tuple[int, int, int]]:
-    """The straight pieces of all routes, left vertex first, with their bonds."""
+    """The straight pieces from column to column, left vertex first, with their bonds."""
     found = []
     for route in layers.routes:
         for a, b in zip(route.vertices, route.vertices[1:], strict=False):
-            if a != b:
+            if layers.column[a] != layers.column[b]:
                 forward = layers.column[a] < layers.column[b]
                 found.append((a, b, route.bond) if forward else (b, a, route.bond))
     return found
@@ -170,6 +171,10 @@ def _positions(steps: list[float]) -> dict[int, float]:
 def _legs(layers: Layers, shifts: dict[int, float], columns: range) -> list[Leg]:
     """The straight pieces that are seen on the line of these columns."""
     legs = []
+    for route in layers.routes:
+        a, b = route.vertices[0], route.vertices[-1]
+        if a != b and layers.column[a] == layers.column[b] and layers.column[a] in columns:
+            legs.append(Leg(route.bond, a, b, shifts.get(route.bond, 0.0), 0))
     for a, b, bond in _pairs(layers):
         c = layers.column[a]
         if c in columns or c + 1 in columns:
@@ -324,12 +329,11 @@ def _labels(
         label = scene.bond_names[wire.bond]
         if not label:
             continue
-        spots = _beside(wire, width(label, SMALL))
-        boxes = [around(*at, width(label, SMALL), SMALL) for at in spots]
-        good = [i for i, box in enumerate(boxes) if canvas.room_for_box(box)]
-        best = good[0] if good else 0
-        placed[wire.bond] = spots[best]
-        canvas.box(boxes[best])
+        wide = width(label, SMALL)
+        spots = _beside(wire, wide)
+        free = (at for at in spots if canvas.room_for_box(around(*at, wide, SMALL)))
+        placed[wire.bond] = next(free, spots[0])
+        canvas.box(around(*placed[wire.bond], wide, SMALL))
     return placed
 
 
@@ -365,7 +369,8 @@ def _beside(wire: Wire, w: float) -> list[Point]:
     nx, ny = -dy / length, dx / length
     off = abs(nx) * w / 2 + abs(ny) * SMALL / 2 + 4
     return [
-        (p[0] + t * dx - s * nx * off, p[1] + t * dy - s * ny * off)
-        for t in (0.5, 0.42, 0.58, 0.34, 0.66)
+        (p[0] + t * dx - s * nx * (off + far), p[1] + t * dy - s * ny * (off + far))
+        for far in (0, 6, 14)
+        for t in (0.5, 0.42, 0.58, 0.34, 0.66, 0.74, 0.26, 0.82, 0.18)
         for s in (1, -1)
     ]

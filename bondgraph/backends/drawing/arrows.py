@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterator
 
 from bondgraph.backends.drawing.arrange import Figure, covered
 from bondgraph.backends.drawing.canvas import Box, Canvas, Point, around, between, inside
+from bondgraph.backends.drawing.detour import detour, quadratic
 from bondgraph.backends.drawing.place import Frame, Wire
 from bondgraph.backends.drawing.scene import Scene
 from bondgraph.backends.drawing.signals import Signal
@@ -20,12 +22,17 @@ from bondgraph.text.tuples import NamedTuple
 _REACHES = (24.0, 30.0, 38.0, 50.0, 66.0, 90.0, 120.0)  # px from the element to its signal
 _ANGLES = tuple(22.5 * k for k in range(16))
 _BENDS = tuple(s * b for b in (0.0, 0.15, 0.22, 0.3, 0.38, 0.46, 0.55, 0.7, 0.9) for s in (1, -1))
-_PIECES = 20  # of a curve; bends are shares of its length, aside
-_SPOTS = 10  # free places that are compared
+_PIECES = 11  # of a curve while it is tried, twice as many when it is drawn
+_SPOTS = 6  # free places that are compared
+_FEW = 4  # where each is tried with a detour
 _CROSSINGS = 2  # with bonds, of a way that is still clearer than a name
 _BESIDE = math.cos(math.radians(24))  # of a signal and a bond that leave a junction
 _CONFUSED = 150.0  # px that such a way counts more
+_FAR_OUT = 1.35  # of the length of a curve and the distance of its ends
+_LOOKED = 7500  # points of the grid in one drawing: half a second
 _FAR = 900.0  # px: a longer way is harder to follow than a name is to find
+
+Way = tuple[Point, ...]
 
 
 class Arrow(NamedTuple):
@@ -36,8 +43,8 @@ class Arrow(NamedTuple):
 
     signal: Signal
     box: Box | None
-    tip: tuple[Point, ...]
-    ways: tuple[tuple[Point, ...], ...]
+    tip: Way
+    ways: tuple[Way, ...]
 
 
 def with_arrows(
@@ -49,6 +56,7 @@ def with_arrows(
         return figure, ()
     placer = _Placer(scene, figure)
     arrows = [placer.arrow(signal) for signal in drawn]
+    arrows = [placer.untangled(arrow) for arrow in arrows]
     bounds = Box(0.0, 0.0, *figure.size)
     for arrow in arrows:
         bounds = bounds if arrow.box is None else bounds.join(arrow.box)
@@ -64,27 +72,35 @@ class _Placer:
         self.scene, self.figure = scene, figure
         own = scene, figure.centre, figure.tags, figure.wires, figure.frames
         self.canvas: Canvas = covered(*own)
-        for bond, at in figure.labels.items():
-            text = scene.bond_names[bond]
-            self.canvas.box(around(*at, width(text, SMALL), SMALL))
         self.labels, self.lines = Canvas(), Canvas()  # what a way may not hit, and should not cross
+        self.clear = Canvas()  # the labels with room around them
+        self.left = _LOOKED
+        self.drawn: dict[Way, tuple[Box, Box]] = {}  # the ways, and from where to where
+        for bond, at in figure.labels.items():
+            name = around(*at, width(scene.bond_names[bond], SMALL), SMALL)
+            self.canvas.box(name)
+            self._block(name)
         for frame in figure.frames:
             x0, y0, x1, _ = frame.box
             self.canvas.line((x0, y0), (x1, y0))
             wide = width(".".join(frame.path), SMALL)
-            self.labels.box(Box(x0 + 4, y0 + 2, x0 + 9 + min(wide, x1 - x0), y0 + 16))
+            self._block(Box(x0 + 4, y0 + 2, x0 + 9 + min(wide, x1 - x0), y0 + 16))
         self.computed: dict[tuple[str, ...], Box] = {}  # blocks, by what they compute
         self.boxes = {
             n: around(*at, scene.items[n].w, scene.items[n].h) for n, at in figure.centre.items()
         }
         for box in self.boxes.values():
-            self.labels.box(box.grow(2))
+            self._block(box.grow(2))
         for n, at in figure.tags.items():
-            self.labels.box(around(*at, width(scene.items[n].tag, SMALL), SMALL))
+            self._block(around(*at, width(scene.items[n].tag, SMALL), SMALL))
         for wire in figure.wires:
             for p, q in itertools.pairwise(wire.points):
                 self.lines.line(p, q)
         self.ends = [end for wire in figure.wires for end in _ends(wire)]
+
+    def _block(self, box: Box) -> None:
+        self.labels.box(box)
+        self.clear.box(box.grow(3))
 
     def arrow(self, signal: Signal) -> Arrow:
         """Where a signal goes: from its origin if there is a way, else from its name."""
@@ -96,85 +112,148 @@ class _Placer:
         elif not signal.block and len(signal.origins) == 1 and len(signal.names) == 1:
             here = self.boxes.get(signal.origins[0])
         if here is not None:
-            way = self._way(here, target)
+            way = self._best(here, target, self._way(here, target))
             if way is not None:
-                self._take(None, (way,))
+                self._take(None, {way: (here, target)})
                 return Arrow(signal, None, way, ())
-        best: tuple[tuple[float, float, float], Arrow] | None = None
-        for box, tip in self._spots(signal, target):
-            ways = [self._way(self.boxes[o], box) for o in signal.origins if o in self.boxes]
-            good = tuple(way for way in ways if way is not None)
+        origins = [self.boxes[o] for o in signal.origins if o in self.boxes]
+        best: tuple[tuple[float, float, float], Box, Way, list[Way | None]] | None = None
+        for box, tip in self._spots(signal, target, origins):
+            tried = [self._way(origin, box) for origin in origins]
+            good = [way for way in tried if way is not None]
             length = sum(map(self._cost, good)) + 3 * _length(tip)
-            rank = float(len(ways) - len(good)), sum(map(self._crossings, good)) * 1.0, length
+            crossings = sum(map(self._crossings, good))
+            rank = float(len(origins) - len(good)), float(crossings), length
             if best is None or rank < best[0]:
-                best = rank, Arrow(signal, box, tip, good)
+                best = rank, box, tip, tried
         assert best is not None
-        placed = best[1]
-        self._take(placed.box, (placed.tip, *placed.ways))
-        if signal.block and placed.box is not None:
-            self.computed[signal.names] = placed.box
-        return placed
+        _, box, tip, tried = best
+        self._take(box, {tip: (box, target)})
+        ways: list[Way] = []
+        for here, curve in zip(origins, tried, strict=True):
+            way = self._best(here, box, curve)
+            if way is not None:
+                self._take(None, {way: (here, box)})
+                ways.append(way)
+        if signal.block:
+            self.computed[signal.names] = box
+        return Arrow(signal, box, tip, tuple(ways))
 
-    def _take(self, box: Box | None, ways: tuple[tuple[Point, ...], ...]) -> None:
+    def untangled(self, arrow: Arrow) -> Arrow:
+        """The arrow with a detour for each of its ways that crosses more than it has to."""
+        ways = []
+        for way in (arrow.tip, *arrow.ways):
+            if not self._crossings(way):
+                ways.append(way)
+                continue
+            others = Canvas()
+            points = [w.points for w in self.figure.wires] + [w for w in self.drawn if w != way]
+            for p, q in itertools.chain.from_iterable(map(itertools.pairwise, points)):
+                others.line(p, q)
+            crossed = _crossed(way, others)
+            better = self._detour(*self.drawn[way], others) if crossed else None
+            if better is not None and _crossed(better, others) < crossed:
+                self.drawn[better] = self.drawn.pop(way)
+                way = better
+            ways.append(way)
+        return arrow._replace(tip=ways[0], ways=tuple(ways[1:]))
+
+    def _take(self, box: Box | None, ways: dict[Way, tuple[Box, Box]]) -> None:
         if box is not None:
             self.canvas.box(box)
-            self.labels.box(box)
+            self._block(box)
+        self.drawn.update(ways)
         for way in ways:
             for p, q in itertools.pairwise(way):
                 self.canvas.line(p, q)
                 self.lines.line(p, q)
 
-    def _spots(self, signal: Signal, target: Box) -> list[tuple[Box, tuple[Point, ...]]]:
-        """Free places for the text of a signal, near ones first, with the arrow to the element."""
+    def _best(self, here: Box, to: Box, way: Way | None) -> Way | None:
+        """A curve, or where it crosses something or goes far out a detour that is better."""
+        near = way is not None and _length(way) < _FAR_OUT * math.dist(way[0], way[-1])
+        if way is not None and near and not self._crossings(way):
+            return way
+        found = [w for w in (way, self._detour(here, to, self.lines)) if w is not None]
+        return min(found, key=lambda w: (self._crossings(w), _length(w)), default=None)
+
+    def _detour(self, here: Box, to: Box, lines: Canvas) -> Way | None:
+        """A way round what is drawn; None where it would be too long to follow."""
+        if math.dist((here.x0, here.y0), (to.x0, to.y0)) > _FAR:
+            return None
+        paper = Box(0.0, 0.0, *self.figure.size)
+        way, seen = detour(here, to, paper, self.clear, lines, min(self.left, _LOOKED // 3))
+        self.left -= seen
+        if way is None or _crossed(way, lines) > _CROSSINGS:
+            return None
+        return way
+
+    def _spots(self, signal: Signal, target: Box, origins: list[Box]) -> list[tuple[Box, Way]]:
+        """Free places for the text of a signal, with the arrow to its element.
+
+        They are beside the element; where all is taken, beside what the signal is from.
+        """
         wide = width(signal.label, SMALL + 1) + (12 if signal.block else 4)
         high = SMALL + (9 if signal.block else 3)
-        x, y = (target.x0 + target.x1) / 2, (target.y0 + target.y1) / 2
-        found: list[tuple[Box, tuple[Point, ...]]] = []
-        far: tuple[Box, tuple[Point, ...]] | None = None
+        found: list[tuple[Box, Way]] = []
+        own = self.scene.frames_of(signal.node)
+        foreign = [frame.box for frame in self.figure.frames if frame.path not in own]
+        for box, tip in self._beside(target, wide, high):
+            if any(box.meets(frame) for frame in foreign):
+                continue
+            if self.labels.room_for_line(*tip) and not self._crossings(tip):
+                found.append((box, tip))
+                if len(found) == _SPOTS:
+                    return found
+        for origin in [] if found else origins:
+            for box, _ in itertools.islice(self._beside(origin, wide, high), _FEW):
+                way = self._detour(box, target, self.lines)
+                if way is not None:
+                    found.append((box, way))
+        if found:
+            return found
+        x, y = _middle(target)
+        far = around(x, y - _REACHES[-1], wide, high)
+        line = between(_middle(far), (x, y), far.grow(1), target.grow(3))
+        assert line is not None
+        return [(far, line)]
+
+    def _beside(self, box: Box, wide: float, high: float) -> Iterator[tuple[Box, Way]]:
+        """Free places of this size around a box, near ones first, with the line from there."""
+        x, y = _middle(box)
         for reach in _REACHES:
             for angle in _ANGLES:
                 dx, dy = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-                aside = abs(dx) * ((target.x1 - target.x0) + wide) / 2
-                above = abs(dy) * ((target.y1 - target.y0) + high) / 2
+                aside = abs(dx) * ((box.x1 - box.x0) + wide) / 2
+                above = abs(dy) * ((box.y1 - box.y0) + high) / 2
                 out = reach + min(math.hypot(aside * dx, above * dy) + abs(dx) * aside * 0.5, 160)
-                box = around(x + out * dx, y + out * dy, wide, high)
-                line = between((x, y), (x + out * dx, y + out * dy), target.grow(3), box.grow(1))
+                spot = around(x + out * dx, y + out * dy, wide, high)
+                line = between(_middle(spot), (x, y), spot.grow(1), box.grow(3))
                 if line is None or math.dist(*line) < 12:
                     continue
-                tip = (line[1], line[0])
-                far = (box, tip)
-                if self.canvas.room_for_box(box.grow(3)) and self.canvas.room_for_line(*tip):
-                    found.append((box, tip))
-                    if len(found) == _SPOTS:
-                        return found
-        assert far is not None
-        return found or [far]
+                if self.canvas.room_for_box(spot.grow(3)):
+                    yield spot, line
 
-    def _way(self, here: Box, to: Box) -> tuple[Point, ...] | None:
+    def _way(self, here: Box, to: Box) -> Way | None:
         """The clearest way from a box to another: straight or bent; None where it hits labels."""
-        p = ((here.x0 + here.x1) / 2, (here.y0 + here.y1) / 2)
-        q = ((to.x0 + to.x1) / 2, (to.y0 + to.y1) / 2)
-        far = math.dist(p, q)
+        far = math.dist(_middle(here), _middle(to))
         if far > _FAR or far < 1:
             return None
-        best: tuple[tuple[float, float], tuple[Point, ...]] | None = None
+        best: tuple[tuple[float, float], float] | None = None
         for bend in _BENDS:
-            control = ((p[0] + q[0]) / 2 - bend * (q[1] - p[1]),
-                       (p[1] + q[1]) / 2 + bend * (q[0] - p[0]))  # fmt: skip
-            way = _seen(_curve(p, control, q, 2 if not bend else _PIECES), here.grow(4), to.grow(3))
+            way = _bent(here, to, bend, _PIECES)
             pairs = list(itertools.pairwise(way))
             if not pairs or not all(self.labels.room_for_line(a, b) for a, b in pairs):
                 continue
             crossings = self._crossings(way)
             cost = self._cost(way)
             if not crossings and cost < _CONFUSED + _length(way):
-                return way  # further bends are longer
+                return _bent(here, to, bend, 2 * _PIECES - 1)  # further bends are longer
             rank = float(crossings), cost
             if crossings <= _CROSSINGS and (best is None or rank < best[0]):
-                best = rank, way
-        return None if best is None else best[1]
+                best = rank, bend
+        return None if best is None else _bent(here, to, best[1], 2 * _PIECES - 1)
 
-    def _cost(self, way: tuple[Point, ...]) -> float:
+    def _cost(self, way: Way) -> float:
         """How long a way is, and longer where it leaves beside a bond: they look like one line."""
         own = math.atan2(way[1][1] - way[0][1], way[1][0] - way[0][0])
         beside = any(
@@ -182,8 +261,25 @@ class _Placer:
         )
         return _length(way) + (_CONFUSED if beside else 0.0)
 
-    def _crossings(self, way: tuple[Point, ...]) -> int:
-        return sum(self.lines.crossings(a, b) for a, b in itertools.pairwise(way))
+    def _crossings(self, way: Way) -> int:
+        return _crossed(way, self.lines)
+
+
+def _middle(box: Box) -> Point:
+    return (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2
+
+
+def _bent(here: Box, to: Box, bend: float, pieces: int) -> Way:
+    """What is seen of a curve between two boxes, which is bent aside by a share of its length."""
+    p, q = _middle(here), _middle(to)
+    control = ((p[0] + q[0]) / 2 - bend * (q[1] - p[1]), (p[1] + q[1]) / 2 + bend * (q[0] - p[0]))
+    curve = quadratic(p, control, q, pieces if bend else 2)
+    return _seen(curve, here.grow(4), to.grow(3))
+
+
+def _crossed(way: Way, lines: Canvas) -> int:
+    """How many lines a way crosses."""
+    return sum(lines.crossings(a, b) for a, b in itertools.pairwise(way))
 
 
 def _ends(wire: Wire) -> list[tuple[Point, float]]:
@@ -192,17 +288,7 @@ def _ends(wire: Wire) -> list[tuple[Point, float]]:
     return [(a, math.atan2(b[1] - a[1], b[0] - a[0])), (z, math.atan2(y[1] - z[1], y[0] - z[0]))]
 
 
-def _curve(p: Point, control: Point, q: Point, pieces: int) -> list[Point]:
-    """A quadratic curve as so many points."""
-    found = []
-    for k in range(pieces):
-        t = k / (pieces - 1)
-        a, b, c = (1 - t) ** 2, 2 * t * (1 - t), t**2
-        found.append((a * p[0] + b * control[0] + c * q[0], a * p[1] + b * control[1] + c * q[1]))
-    return found
-
-
-def _seen(way: list[Point], here: Box, to: Box) -> tuple[Point, ...]:
+def _seen(way: list[Point], here: Box, to: Box) -> Way:
     """The part of a way that is outside of the boxes at its ends."""
     points = list(way)
     while len(points) > 2 and inside(points[1], points[1], here.grow(0.01)):
@@ -220,7 +306,7 @@ def _seen(way: list[Point], here: Box, to: Box) -> tuple[Point, ...]:
     return (first[0], *points[1:-1], last[1])
 
 
-def _length(way: tuple[Point, ...]) -> float:
+def _length(way: Way) -> float:
     return sum(math.dist(p, q) for p, q in itertools.pairwise(way))
 
 

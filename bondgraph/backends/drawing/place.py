@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Iterator
 
 from bondgraph.backends.drawing.canvas import Box, Canvas, Point, around, between
 from bondgraph.backends.drawing.layout import Layers
@@ -21,14 +23,21 @@ _COMPASS = (_N, _S, _NE, _SE, _NW, _SW, _E, _W)
 _SIDES = {
     "in": (_W, _N, _S, _NW, _SW, _NE, _SE, _E),
     "out": (_E, _S, _N, _SE, _NE, _SW, _NW, _W),
-    "I": (_N, _S, _NW, _NE, _SW, _SE, _E, _W),
-    "R": (_S, _N, _SW, _SE, _NW, _NE, _E, _W),
-    "C": (_S, _N, _SE, _SW, _NE, _NW, _E, _W),
+    "I": (_N, _S, _E, _NW, _NE, _SW, _SE, _W),
+    "R": (_S, _N, _E, _SW, _SE, _NW, _NE, _W),
+    "C": (_S, _N, _E, _SE, _SW, _NE, _NW, _W),
     "D": (_NE, _N, _SE, _S, _NW, _SW, _E, _W),
 }
+#: Where the name of a junction may stand: sides (in halves of its width) and px below.
+_NAMES = (
+    *((1, 15.0), (1, -15.0), (-1, -15.0), (-1, 15.0), (0, 24.0), (0, -24.0)),
+    *((1, 24.0), (1, -24.0), (-1, -24.0), (-1, 24.0), (1, 0.0), (-1, 0.0)),
+)
+_FAR_NAMES = (26.0, 34.0, 44.0, 56.0, 70.0)  # px, where a junction has many bonds
+_STROKE = 7.0  # px to each side of a bond
 _BETWEEN = tuple(22.5 + a for a in _COMPASS)
 _FINE = tuple(11.25 + a for a in sorted(_COMPASS + _BETWEEN))
-_RANK = {"Se": 0, "Sf": 0, "I": 1, "R": 3, "C": 2, "De": 4, "Df": 4}
+_RANK = {"Se": 0, "Sf": 0, "I": 1, "IC": 1, "R": 3, "C": 2, "De": 4, "Df": 4}
 
 
 class Wire(NamedTuple):
@@ -81,6 +90,7 @@ class Part:
         for n in self.layers.vertices:
             if n in self.centre:
                 self._put(n, self.centre[n])
+        self.legs = legs
         for leg in legs:
             self._leg(leg)
         for n in self.layers.vertices:
@@ -114,6 +124,8 @@ class Part:
         if kind in ("Se", "Sf"):
             kind = "in" if self.scene.graph.bonds[leaf.bond].tail.node == leaf.node else "out"
         sides: tuple[float, ...] = _SIDES[kind if kind in _SIDES else "D"]
+        if leaf.host in self.layers.upright and kind in ("I", "R", "C"):
+            sides = self._beside(leaf.host, sides)
         walls = self.scene.walls(leaf.node, leaf.host)
         if walls and kind not in ("in", "out"):
             sides = tuple(sorted(sides, key=lambda a: a not in (_N, _S)))
@@ -135,6 +147,13 @@ class Part:
         assert best is not None
         self.crowded = True
         self._fasten(leaf, *best)
+
+    def _beside(self, host: int, sides: tuple[float, ...]) -> tuple[float, ...]:
+        """The sides of what stands upright: a single one-port goes on in its line, two balance."""
+        hung = [self.scene.graph.nodes[leaf.node].kind for leaf in self.scene.leaves[host]]
+        alone = sum(kind not in ("De", "Df") for kind in hung) == 1
+        first = (_S, _N, _E, _W) if alone else (_W, _E, _S, _N)
+        return first + tuple(angle for angle in sides if angle not in first)
 
     def _spot(self, leaf: Leaf, angle: float, length: float) -> tuple[Point, Box, Point, Point]:
         """The centre, the box and the visible line of a one-port in this direction."""
@@ -176,21 +195,34 @@ class Part:
         self.wires.append(Wire(leaf.bond, (start, stop)))
 
     def _name_junctions(self) -> None:
-        """Small names beside the junctions, where there is room."""
+        """Small names beside the junctions, where there is room beside strokes and arrow heads."""
         self.tags.clear()
+        for p, q in self._bars():
+            self.canvas.line(p, q)
         for n in self.layers.vertices:
             tag = self.scene.items[n].tag
             if n not in self.centre or not tag:
                 continue
             x, y = self.centre[n]
             w = width(tag, SMALL)
-            for dx, dy in ((1, 1), (1, -1), (-1, -1), (-1, 1)):
-                at = (x + dx * (w / 2 + 14), y + dy * 15)
+            for at in _name_spots(x, y, w):
                 box = around(*at, w, SMALL + 1)
                 if self.canvas.room_for_box(box.grow(1.5)):
                     self.tags[n] = at
                     self.canvas.box(box)
                     break
+
+    def _bars(self) -> Iterator[tuple[Point, Point]]:
+        """Across both ends of every bond, where a stroke or half an arrow head may stand."""
+        seen = [wire.points for wire in self.wires]
+        for leg in self.legs:
+            ends = (self.box.get(v) for v in (leg.a, leg.b))
+            seen.append(clip(*leg.ends(self.centre), *ends))
+        for p, q in seen:
+            length = math.dist(p, q) or 1.0
+            dx, dy = _STROKE * (q[0] - p[0]) / length, _STROKE * (q[1] - p[1]) / length
+            for x, y in (p, q):
+                yield (x - dy, y + dx), (x + dy, y - dx)
 
     # ---------------------------------------------------------------- frames
 
@@ -227,6 +259,8 @@ class Part:
         self.frames = [Frame(path, box) for path, box in sorted(done.items())]
         boxes = [*self.box.values(), *done.values()]
         boxes += [around(x, y, 8, 8) for x, y in self.centre.values()]
+        for n, at in self.tags.items():
+            boxes.append(around(*at, width(scene.items[n].tag, SMALL), SMALL))
         total = boxes[0]
         for box in boxes:
             total = total.join(box)
@@ -241,6 +275,15 @@ class Part:
                 box = box.join(self.box[leaf.node])
         x = self.centre[node][0]
         return x - box.x0, box.x1 - x
+
+
+def _name_spots(x: float, y: float, wide: float) -> Iterator[Point]:
+    """Where the name of a junction may stand, the usual places first."""
+    for dx, dy in _NAMES:
+        yield x + dx * (wide / 2 + 14), y + dy
+    for out, angle in itertools.product(_FAR_NAMES, _COMPASS + _BETWEEN + _FINE):
+        turn = math.radians(angle)
+        yield x + math.cos(turn) * (out + wide / 2), y + math.sin(turn) * out
 
 
 class Leg(NamedTuple):

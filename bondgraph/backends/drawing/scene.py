@@ -10,6 +10,7 @@ from bondgraph.notation.line import show
 from bondgraph.text.tuples import NamedTuple
 
 Path = tuple[str, ...]
+_LIGHT = 3  # one-ports at a junction that stands above or below another one
 
 
 class Look(NamedTuple):
@@ -76,6 +77,13 @@ class Scene(NamedTuple):
         """The frames around a node, the outermost first."""
         path = self.items[node].path
         return tuple(path[:k] for k in range(1, len(path)) if path[:k] in self.framed)
+
+    def hangs(self, node: int, host: int) -> bool:
+        """Whether a node of the skeleton may stand above or below another one.
+
+        It needs room for what hangs on itself, and the same frames around it.
+        """
+        return self.walls(node, host) == 0 and len(self.leaves.get(node, ())) <= _LIGHT
 
     def walls(self, a: int, b: int) -> int:
         """How many frames a bond from a to b crosses."""

@@ -47,6 +47,7 @@ KINDS = {
     "De": "detector",
     "Df": "detector",
     "I": "inertia",
+    "IC": "inertia",
     "C": "capacity",
     "R": "resistor",
 }

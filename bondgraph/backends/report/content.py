@@ -29,11 +29,15 @@ class PathLine(NamedTuple):
 
 
 class DerivedStep(NamedTuple):
-    """A step of a derivation: what is done, its equations, what cancels or must not be zero."""
+    """A step of a derivation: what is done, its equations, what cancels or must not be zero.
+
+    `node` is the path of the node whose equation it begins with, or empty.
+    """
 
     words: str
     html: tuple[str, ...]
     remark: str
+    node: str
 
 
 class RelationPart(NamedTuple):

@@ -34,7 +34,7 @@ def relations(
         part = _relation(compilation, typesetter, relation, program, left > 0)
         left -= sum(map(len, part.html)) + sum(len(line.html) for line in part.path)
         if derive and left > 0:
-            part = part._replace(derivation=_derivation(compilation, typesetter, relation.name))
+            part = part._replace(derivation=derived_steps(compilation, typesetter, relation.name))
             steps = [step for _, own, _ in part.derivation for step in own]
             left -= sum(len(line) for step in steps for line in step.html)
         found.append(part)
@@ -116,11 +116,12 @@ def _path(
     return tuple(listed), len(steps) - len(shown)
 
 
-def _derivation(
+def derived_steps(
     compilation: Compilation, typesetter: Typesetter, name: str
 ) -> tuple[tuple[str, tuple[DerivedStep, ...], str], ...]:
     """Title, steps and ending; of a relation with one in each position of a switch, of each."""
     found = []
+    nodes = compilation.graph.nodes
     for own in compilation.derivation(name):
         zero, steps = own.pool.zero, []
         for step in own.steps:
@@ -136,7 +137,9 @@ def _derivation(
                     line = typesetter.assigned(left.symbol.name, right)
                 html.append(f'{line}<span class="why">{note}</span>' if note else line)
             words = headline(own, step, compilation.source, show)
-            steps.append(DerivedStep(words, tuple(html), remark(step, show)))
+            at = -1 if step.equation is None else step.equation.node
+            node = nodes[at].path if at >= 0 else ""
+            steps.append(DerivedStep(words, tuple(html), remark(step, show), node))
         found.append((title(own, compilation.graph.name), tuple(steps), ending(own)))
     return tuple(found)
 

@@ -25,7 +25,8 @@ Say = Callable[[dict[str, Any]], None]
 _BUG = "This takes more memory than there is, or found a bug in bondgraph."
 _SKETCH = 20.0  # s that a drawing may take
 _SOON = 0.1  # s between two looks whether processes can be had
-_LONGEST = 300.0  # s that residuals may take, or a run
+_LONGEST = 300.0  # s that residuals may take, a derivation, or a run
+_WISHES = 64  # at once
 
 
 class Processes:
@@ -70,7 +71,8 @@ class Analyst:
         self._processes, self._say = processes, say
         self._lock = Lock()
         self._job: Job | None = None
-        self._run: dict[str, Any] | None = None
+        self._wishes: dict[str, dict[str, Any]] = {}
+        self._awaited: set[str] = set()  # what answers will be of
         self._over = False
         self._woken, self._wake = socket.socketpair()
         self._wake.setblocking(False)
@@ -86,13 +88,16 @@ class Analyst:
     def look(self, job: Job) -> None:
         """There is a newer text."""
         with self._lock:
-            self._job, self._run = job, None
+            self._job = job
+            self._wishes.clear()
         self._nudge()
 
-    def run(self, settings: dict[str, Any]) -> None:
-        """A run of the newest text is asked for."""
+    def ask(self, wish: dict[str, Any]) -> None:
+        """A run of the newest text is asked for, or the derivation of one of its residuals."""
+        kind = "run" if wish["do"] == "run" else f"derivation {wish.get('name')}"
         with self._lock:
-            self._run = settings
+            if len(self._wishes) < _WISHES:
+                self._wishes[kind] = wish
         self._nudge()
 
     def end(self) -> None:
@@ -130,26 +135,28 @@ class Analyst:
             self._fail("This takes too long; it was given up.")
         if self._over:
             return
-        job, run = self._due()
+        job, wishes = self._due()
         if self._early is not None and self._processes.ready.is_set():
             job, self._early = job or self._early, None
         if job is not None:
             self._start(job)
-        elif run is not None and self._pipe is not None:
+        elif wishes and self._pipe is not None:
             with suppress(OSError):
-                self._pipe.send(run)
+                for wish in wishes.values():
+                    self._pipe.send(wish)
+            self._awaited |= wishes.keys()
             self._until = clocks.monotonic() + _LONGEST
 
-    def _due(self) -> tuple[Job | None, dict[str, Any] | None]:
+    def _due(self) -> tuple[Job | None, dict[str, dict[str, Any]]]:
         """What is to be begun now: nothing before a sketch that is being made is there."""
         with self._lock:
             if self._sketching:
-                return None, None
+                return None, {}
             job, self._job = self._job, None
-            run = self._run
+            wishes = dict(self._wishes)
             if self._pipe is not None:
-                self._run = None
-            return job, run
+                self._wishes.clear()
+            return job, wishes
 
     def _start(self, job: Job) -> None:
         """Begin with a text; while processes cannot be had yet, its sketch is made here."""
@@ -173,8 +180,10 @@ class Analyst:
             self._gone()
             return
         self._sketching = False
-        more = message["type"] == "sketch" and message["sound"]
-        self._until = clocks.monotonic() + _LONGEST if more else 0.0
+        if message["type"] == "sketch" and message["sound"]:
+            self._awaited.add("derived")
+        self._awaited.discard(f"{message['type']} {message.get('name', '')}".strip())
+        self._until = clocks.monotonic() + _LONGEST if self._awaited else 0.0
         self._say(message)
 
     def _gone(self) -> None:
@@ -200,3 +209,4 @@ class Analyst:
             self._pipe.close()
         self._process = self._pipe = None
         self._sketching, self._until = False, 0.0
+        self._awaited.clear()

@@ -1,4 +1,4 @@
-"""What is told of a sound text when nobody types: residuals, signatures, what can be tried."""
+"""What is told of a sound text when nobody types: residuals, their derivations, signatures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bondgraph.backends.report.formulas import Typesetter
 from bondgraph.cli.live import links, targets
 from bondgraph.cli.reasons import message, missing
 from bondgraph.cli.reporting.collect import matrix
-from bondgraph.cli.reporting.relations import relations
+from bondgraph.cli.reporting.relations import derived_steps, relations
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import Residual
@@ -30,10 +30,7 @@ def derived(compilation: Compilation, version: int) -> dict[str, Any]:
         program = compilation.program if compilation.residuals else None
     except CompileError as error:
         return found | {"message": str(error), "help": helping(error)}
-    graph = compilation.graph
-    names = [x.name for items in (graph.values, graph.inputs, graph.sensors) for x in items]
-    names += [v.symbol.name for e in compilation.equations.equations for v in e.variables]
-    typesetter = Typesetter(names, graph.initial_values())
+    graph, typesetter = compilation.graph, _typesetter(compilation)
     return found | {
         "status": "ok" if compilation.residuals else "no_arr",
         "message": message(compilation),
@@ -46,6 +43,24 @@ def derived(compilation: Compilation, version: int) -> dict[str, Any]:
         "docs": {x.name: x.doc for items in (graph.values, graph.inputs, graph.sensors)
                  for x in items if x.doc},
     }
+
+
+def replayed(compilation: Compilation, name: str, version: int) -> dict[str, Any]:
+    """The message with the derivation of a residual; without one it says why in `message`."""
+    found: dict[str, Any] = {"type": "derivation", "version": version, "name": name, "parts": []}
+    try:
+        steps = derived_steps(compilation, _typesetter(compilation), name)
+    except (CompileError, KeyError) as error:
+        return found | {"message": str(error)}
+    parts = [dict(zip(("title", "steps", "ending"), _plain(part), strict=True)) for part in steps]
+    return found | {"parts": parts}
+
+
+def _typesetter(compilation: Compilation) -> Typesetter:
+    graph = compilation.graph
+    names = [x.name for items in (graph.values, graph.inputs, graph.sensors) for x in items]
+    names += [v.symbol.name for e in compilation.equations.equations for v in e.variables]
+    return Typesetter(names, graph.initial_values())
 
 
 def helping(error: CompileError) -> str:

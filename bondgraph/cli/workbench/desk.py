@@ -34,7 +34,7 @@ class Desk:
             self._loop.call_soon_threadsafe(self._put, message)
 
     def _put(self, message: dict[str, Any]) -> None:
-        kind = message["type"]
+        kind = f"{message['type']} {message.get('name', '')}"
         self._waiting.pop(kind, None)  # a newer one waits behind what is older
         self._waiting[kind] = _sent(message)
         self._more.set()
@@ -61,7 +61,9 @@ class Desk:
             case "look":
                 self._look(message)
             case "run":
-                self._analyst.run(message)
+                self._analyst.ask(message)
+            case "derive" if isinstance(message.get("name"), str):
+                self._analyst.ask(message)
             case "save" if self._saves is None or self._saves.done():
                 self._saves = asyncio.create_task(self._save(message))
             case _:

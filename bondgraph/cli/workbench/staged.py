@@ -10,7 +10,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from bondgraph import Compilation
-from bondgraph.cli.workbench.derived import derived, helping
+from bondgraph.cli.workbench.derived import derived, helping, replayed
 from bondgraph.cli.workbench.sketch import Job, opened, sketch
 from bondgraph.cli.workbench.trial import trial
 from bondgraph.text.diagnostic import CompileError
@@ -20,13 +20,13 @@ _MEMORY = 4 << 30  # bytes that a process may have
 
 
 class _Newer(Exception):
-    """Something newer is asked for."""
+    """A newer run is asked for."""
 
 
 def staged(pipe: Connection, job: Job) -> None:
-    """Send the sketch of the text, then what is derived, then the runs that are asked for.
+    """Send the sketch of the text, then what is derived, then what is asked for.
 
-    Asked for are settings of a run; only the newest of them counts. Ends with the pipe.
+    Asked for are derivations and runs; of runs only the newest counts. Ends with the pipe.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ^C is for the server
     _bounded()
@@ -46,23 +46,52 @@ def staged(pipe: Connection, job: Job) -> None:
             wrong = {"type": "derived", "version": job.version, "status": "wrong"}
             pipe.send(wrong | {"message": str(error), "help": helping(error)})
             return
+        wishes = _Wishes(pipe)
         while True:
-            _run(pipe, compilation, job.version)
+            _answer(wishes.take(), wishes, compilation, job.version)
 
 
-def _run(pipe: Connection, compilation: Compilation, version: int) -> None:
-    """Wait for a run to be asked for, and run it unless there is another one by then."""
-    settings = pipe.recv()
-    while pipe.poll():
-        settings = pipe.recv()
+class _Wishes:
+    """What the page has asked for and has no answer to yet: of each kind the newest."""
+
+    def __init__(self, pipe: Connection) -> None:
+        self.pipe = pipe
+        self._waiting: dict[str, dict[str, Any]] = {}
+
+    def take(self) -> dict[str, Any]:
+        """The next one; what is quick comes before a run. Raises EOFError when the page is gone."""
+        while not self._waiting or self.pipe.poll():
+            self._hear()
+        first = min(self._waiting, key=lambda kind: kind == "run")
+        return self._waiting.pop(first)
+
+    def run_again(self) -> bool:
+        """Whether another run is asked for."""
+        while self.pipe.poll():
+            self._hear()
+        return "run" in self._waiting
+
+    def _hear(self) -> None:
+        wish = self.pipe.recv()
+        kind = "run" if wish.get("do") == "run" else f"derive {wish.get('name')}"
+        self._waiting[kind] = wish
+
+
+def _answer(
+    wish: dict[str, Any], wishes: _Wishes, compilation: Compilation, version: int
+) -> None:
+    """Replay a derivation, or run the machine unless another run is asked for meanwhile."""
+    if wish.get("do") != "run":
+        wishes.pipe.send(replayed(compilation, str(wish.get("name")), version))
+        return
 
     def progress(share: float) -> None:
-        if pipe.poll():
+        if wishes.run_again():
             raise _Newer
 
     with suppress(_Newer):
-        found: dict[str, Any] = trial(compilation, settings, progress)
-        pipe.send(found | {"version": version})
+        found: dict[str, Any] = trial(compilation, wish, progress)
+        wishes.pipe.send(found | {"version": version})
 
 
 def _bounded() -> None:

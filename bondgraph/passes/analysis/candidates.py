@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.structural_model import StructuralModel
+from bondgraph.library.elements import PASSIVE
 from bondgraph.structural.placement import Candidate
 
-_ONE_PORTS = frozenset({"R", "C", "I", "Se", "Sf"})
+_ONE_PORTS = frozenset({*PASSIVE, "Se", "Sf"})
 
 
 def bond_graph_places(

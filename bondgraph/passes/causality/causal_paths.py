@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from bondgraph.ir.causal import Storage
 from bondgraph.ir.graph import BondGraph
+from bondgraph.library.elements import STORAGES
 from bondgraph.passes.causality.strokes import Strokes
 
 _FAR = 2000  # variables looked at in search of partners
@@ -120,7 +121,7 @@ class Paths:
         for variable in queue:
             node = self.maker(variable)
             kind = self._graph.nodes[node].kind
-            if kind in ("C", "I"):
+            if kind in STORAGES:
                 if node != storage.node:
                     storages.append(node)
             elif kind in ("Se", "Sf", "De", "Df"):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bondgraph.ir.causal import CausalGraph, Storage
 from bondgraph.ir.graph import Node
+from bondgraph.library.elements import STORAGES
 from bondgraph.passes.causality.causal_paths import Paths
 from bondgraph.passes.causality.node_words import listing, name, sentence
 from bondgraph.text.diagnostic import Label, Report
@@ -49,7 +50,7 @@ def _dependent(causal: CausalGraph, paths: Paths, report: Report) -> None:
     for group in groups.values():
         storage, partners = group[0]
         node = nodes[storage.node]
-        what = "flow" if node.kind == "I" else "effort"
+        what = "flow" if node.ports[storage.port].stores == "p" else "effort"
         text = f"{_port(node, storage)} is in derivative causality: "
         text += _tie(what, [nodes[p] for p in partners])
         if len(group) > 1:
@@ -70,18 +71,18 @@ def _tie(what: str, partners: list[Node]) -> str:
     if not partners:
         return f"its {what} is imposed from outside"
     names = listing([name(p) for p in partners])
-    if partners[0].kind in ("C", "I"):
+    if partners[0].kind in STORAGES:
         verb = "has" if len(partners) == 1 else "have"
         return f"its {what} is fixed by {names}, which {verb} the state"
     return f"its {what} is imposed by {names}"
 
 
 def _part(partner: Node) -> str:
-    return "holds the state" if partner.kind in ("C", "I") else "imposes it"
+    return "holds the state" if partner.kind in STORAGES else "imposes it"
 
 
 def _remedy(nodes: tuple[Node, ...], partners: list[int]) -> str:
-    if partners and nodes[partners[0]].kind in ("C", "I"):
+    if partners and nodes[partners[0]].kind in STORAGES:
         return (
             "This is no error: these storages share their states. To have them independent, "
             "add the compliance or resistance that lies between them."

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from bondgraph.frontend.statement_end import statement_end
 from bondgraph.ir.graph import BondGraph, End, Node
 from bondgraph.ir.groups import Groups
+from bondgraph.library.elements import PASSIVE
 from bondgraph.passes.causality.cores import refute
 from bondgraph.passes.causality.explanation import Explanation
 from bondgraph.passes.causality.node_words import name
@@ -309,7 +310,7 @@ def _link(graph: BondGraph, tail: End, head: End) -> tuple[str, str, str, str] |
     for end in (tail, head):
         node = graph.nodes[end.node]
         model, _, own = node.path.rpartition(".")
-        fields = node.kind in ("R", "C", "I") and len(node.ports) > 1
+        fields = node.kind in PASSIVE and len(node.ports) > 1
         ends.append((model, f"{own}.{node.ports[end.port].name}" if fields else own))
     (model, a), (other, b) = ends
     if model != other or "[" in a + b:

@@ -153,8 +153,8 @@ def demands(
                 group.append(Wish(end >> 1, value, n, port, "source" if source else "sensor"))
                 continue
             match node.kind:
-                case "C" | "I":
-                    value = gives if (node.kind == "C") == integral else takes
+                case "C" | "I" | "IC":
+                    value = gives if (node.ports[port].stores == "q") == integral else takes
                     storages.append(Wish(end >> 1, value, n, port, "preferred"))
                 case _:
                     gives_effort = one_way(node, port)

@@ -7,6 +7,7 @@ import gc
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import Bond, BondGraph, Integral, Law, Node, Port
 from bondgraph.ir.syntax import File
+from bondgraph.library.elements import PASSIVE
 from bondgraph.passes.elaboration.bonds import (
     FlatBond,
     FlatEnd,
@@ -174,7 +175,7 @@ class _Elaboration:
             kind = element.kind
             try:
                 found = laws.laws(entry)
-                if kind in ("R", "C", "I"):
+                if kind in PASSIVE:
                     laws.hold(entry, found)
                 if kind in ("De", "Df"):
                     value = entry.scope.values[entry.name]
@@ -188,7 +189,7 @@ class _Elaboration:
         when = None if entry.when is None else self.when(entry, laws.values)
         ports = tuple(
             [
-                Port(p.name, p.effort, p.flow, p.state, p.initial, p.initial_value)
+                Port(p.name, p.effort, p.flow, p.stores, p.state, p.initial, p.initial_value)
                 for p in entry.ports
             ]
         )

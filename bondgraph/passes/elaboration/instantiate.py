@@ -155,8 +155,9 @@ class Arguments:
                 help = meant(given.parts[0][0], names, otherwise, origin)
                 message = f"`{entry.model.name}` takes no argument `{text}`."
             else:
-                state = entry.element.state if entry.element is not None else None
-                help = f"An element of this kind takes `{state}0`, its initial state."
+                ports = [(f"{p.name}." if p.name else "", p.stores) for p in entry.ports]
+                names = [f"`{before}{stores}0`" for before, stores in ports if stores]
+                help = f"It takes {' or '.join(names)}, its initial state."
                 message = f"`{entry.type}:{entry.name}` takes no argument `{text}`."
             self.report.error("unknown-argument", message, given.argument.origin, help=help)
 
@@ -359,8 +360,8 @@ class Opener(Arguments):
         if definition is None:
             names = (*KINDS, *scope.definition.known)
             fail(self.report, "unknown-type", f"There is no element kind or model `{node.type}`.",
-                 node.origin, help=meant(node.type, names, "Element kinds are R C I TF GY Se Sf De "
-                 "Df; a model must be declared in this file or imported.",
+                 node.origin, help=meant(node.type, names, "Element kinds are R C I IC TF GY Se Sf "
+                 "De Df; a model must be declared in this file or imported.",
                  node.origin))  # fmt: skip
         if isinstance(definition, Missing):
             raise Skip
@@ -383,7 +384,7 @@ class Opener(Arguments):
                 givens = own + [
                     g.inner() for g in self.matching(scope.givens, name, place) if len(g.parts) > 1
                 ]
-            if kind is None or kind.state is None:
+            if kind is None or not kind.states:
                 self.refuse_givens(entry, givens)
             else:
                 entry.givens = givens

@@ -66,7 +66,7 @@ class Laws:
             laws = self.written(node, element, written)
         else:
             if not element.coefficient:
-                self.no_relation(node, written)
+                self.no_relation(node, element, written)
             laws = self.linear(node, element, written)
         if element.modulated:
             self.modulation(node, element, laws, written.origin)
@@ -84,9 +84,13 @@ class Laws:
                 help=f"`{element.kind}` says the same of what does not change.",
             )  # fmt: skip
 
-    def no_relation(self, node: NodeEntry, written: Node) -> None:
-        """A transformer must say in which direction its modulus goes."""
+    def no_relation(self, node: NodeEntry, element: ElementKind, written: Node) -> None:
+        """A transformer must say in which direction its modulus goes, an IC what it is."""
         name = node.name
+        if element.kind == "IC":
+            fail(self.report, "missing-relation", f"`IC:{name}` states no relation.",
+                 written.origin, help="It has no default. Write its ports and a law for each in "
+                 f"braces, as in `{{ port el; port gap; {element.law}; ... }}`.")  # fmt: skip
         end = written.name.origin.end
         behind = Span(written.origin.source, end, end)
         laws = [f"{{ f1 = {name}*f2 }}", f"{{ f2 = {name}*f1 }}"]
@@ -210,11 +214,8 @@ class Laws:
             e, f = self.pair(port)
             own: list[tuple[str, Expr, Term]] = [("e", port.effort, e), ("f", port.flow, f)]
             if port.state is not None:
-                assert node.element is not None
-                if node.element.state == "q":
-                    own.append(("q", port.state, quantities.integrated(f)))
-                else:
-                    own.append(("p", port.state, quantities.integrated(e)))
+                own.append((port.stores, port.state,
+                            quantities.integrated(f if port.stores == "q" else e)))  # fmt: skip
             for name, variable, term in own:
                 key = f"{name}{port.name}" if fixed else f"{port.name}.{name}"
                 names[key] = (variable, term)
@@ -226,8 +227,15 @@ class Laws:
         assert law is not None
         if law.ports and not element.fields:
             fail(self.report, "ports-not-allowed", f"A {written.type} has fixed ports.",
-                 law.ports[0].origin, help="Only R, C and I can be fields with named ports."
+                 law.ports[0].origin, help="Only R, C, I and IC can be fields with named ports."
                  )  # fmt: skip
+        for port in node.ports:
+            if element.states and not port.stores:
+                of = f"{port.name}." if port.name else ""
+                fail(self.report, "storage-unclear", f"`{written.type}:{node.name}` does not say "
+                     f"what {f'port `{port.name}`' if port.name else 'it'} stores.", law.origin,
+                     help=f"Its laws use either `{of}q` (displacement, charge: q' = f) or `{of}p` "
+                     "(momentum, flux: p' = e).")  # fmt: skip
         local = self.local(node)
         place = Place(node.scope, node.env, node.path, local)
         found = [self.equation(q, place, local, node, element) for q in law.equations]

@@ -75,12 +75,13 @@ class Given:
 class PortVariables:
     """The variables of one port of an element, and the group of bonds that share its units."""
 
-    __slots__ = ("effort", "flow", "initial", "initial_value", "name", "slot", "state")
+    __slots__ = ("effort", "flow", "initial", "initial_value", "name", "slot", "state", "stores")
 
     def __init__(self, name: str) -> None:
         self.name = name
         self.effort: Expr
         self.flow: Expr
+        self.stores: Literal["q", "p", ""] = ""
         self.state: Expr | None = None
         self.initial: Expr | None = None
         self.initial_value: Expr | None = None

@@ -6,6 +6,7 @@ disagree somewhere else. Where they come from is found by trying.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator
 
 from bondgraph.ir.syntax import File, Model, Number, Param, Ref
@@ -15,18 +16,23 @@ from bondgraph.text.diagnostic import Diagnostic, Edit
 from bondgraph.text.source import Span
 
 CODE = "unit-mismatch"
-#: Changes that are tried; each costs another elaboration.
+#: A change of the text, and what it is in words.
+Mend = tuple[str, Edit]
+#: Changes that are tried, and pairs of changes; each costs another elaboration.
 _TRIED = 3
 #: Letters of a text that is tried with changes: a larger one would take too long.
 _LETTERS = 100_000
+#: And with two changes at once, for which more is tried.
+_LETTERS_OF_TWO = 20_000
 
 
 def unit_mends(
-    file: File, diagnostics: list[Diagnostic], holds: Callable[[str], bool]
+    file: File, diagnostics: list[Diagnostic], findings: Callable[[str], list[str]]
 ) -> list[Diagnostic]:
-    """The diagnostics, those about units with the change that mends them all, where there is one.
+    """The diagnostics, those about units with the change that mends them, where there is one.
 
-    `holds` says whether the units of a text agree.
+    `findings` says in which units of a text disagree. Where no change mends them all, two are tried
+    together; a finding then gets the one that takes it away.
     """
     wrong = [d for d in diagnostics if d.code == CODE]
     source = file.origin.source
@@ -34,12 +40,37 @@ def unit_mends(
         return diagnostics
     places = {s for d in wrong for s, _ in d.labels if s.source is source}
     sides = [set(d.message.rpartition(": ")[2].rstrip(".").split(" against ")) for d in wrong]
-    for number, (words, edit) in enumerate(_candidates(file, places, sides)):
-        if number >= _TRIED:
-            break
-        if holds(changed(source.text, edit)):
+    first = list(itertools.islice(_candidates(file, places, sides), _TRIED))
+    left = [findings(changed(source.text, edit)) for _, edit in first]
+    for found, (words, edit) in zip(left, first, strict=True):
+        if not found:
             return [_with(d, words, edit) if d.code == CODE else d for d in diagnostics]
+    if len(source.text) > _LETTERS_OF_TWO:
+        return diagnostics
+    for one, other in itertools.islice(_pairs(first, list(_compliances(file))), _TRIED):
+        both = Edit(f"{one[1].title} and {other[1].title}", one[1].changes + other[1].changes)
+        if not findings(changed(source.text, both)):
+            alone = [(m, findings(changed(source.text, m[1]))) for m in (one, other)]
+            together = f"{one[0]} {other[0]}", both
+            return [
+                _with(d, *_own(d, alone, together)) if d.code == CODE else d for d in diagnostics
+            ]
     return diagnostics
+
+
+def _pairs(first: list[Mend], more: list[Mend]) -> Iterator[tuple[Mend, Mend]]:
+    """Two changes of different places, one of which at least is of what the findings name."""
+    for one, other in [*itertools.product(first, more), *itertools.combinations(first, 2)]:
+        if not {span for span, _ in one[1].changes} & {span for span, _ in other[1].changes}:
+            yield one, other
+
+
+def _own(
+    diagnostic: Diagnostic, alone: list[tuple[Mend, list[str]]], together: Mend
+) -> Mend:
+    """Of two changes that mend all together the one that takes this finding away, if it is one."""
+    able = [mend for mend, left in alone if diagnostic.message not in left]
+    return able[0] if len(able) == 1 else together
 
 
 def changed(text: str, edit: Edit) -> str:
@@ -60,18 +91,13 @@ def _with(diagnostic: Diagnostic, words: str, edit: Edit) -> Diagnostic:
 
 def _candidates(
     file: File, places: set[Span], sides: list[set[str]]
-) -> Iterator[tuple[str, Edit]]:
+) -> Iterator[Mend]:
     """Changes of what the findings name, the likeliest first; `sides` are the units that differ."""
     params: list[tuple[Param, Number]] = []
     for model in file.models:
-        own = {s.name.name: (s, n) for s, n in _quantities(model) if n.origin in places}
-        for node in nodes_of(model.body):
-            value = node.value
-            plain = isinstance(value, Ref) and len(value.parts) == 1
-            name = value.parts[0].name if isinstance(value, Ref) else node.name.name
-            if node.type == "C" and name in own and (plain or (value is None and not node.law)):
-                yield _stiffness(node.origin, node.name.origin, value and value.origin, name)
-        params += own.values()
+        own = [(s, n) for s, n in _quantities(model) if n.origin in places]
+        yield from _inverted(model, {s.name.name for s, _ in own})
+        params += own
     for i, (one, first) in enumerate(params):
         for other, second in params[i + 1 :]:
             if _measures(first) != _measures(second):
@@ -83,6 +109,22 @@ def _candidates(
             for one, first in named:
                 if {_measures(first), _measures(second)} in sides:
                     yield _exchanged(one, first, other, second)
+
+
+def _compliances(file: File) -> Iterator[Mend]:
+    """The inverse for each param that is the value of a C."""
+    for model in file.models:
+        yield from _inverted(model, {s.name.name for s, _ in _quantities(model)})
+
+
+def _inverted(model: Model, params: set[str]) -> Iterator[Mend]:
+    """The inverse for those of these params that are the value of a C."""
+    for node in nodes_of(model.body):
+        value = node.value
+        plain = isinstance(value, Ref) and len(value.parts) == 1
+        name = value.parts[0].name if isinstance(value, Ref) else node.name.name
+        if node.type == "C" and name in params and (plain or (value is None and not node.law)):
+            yield _stiffness(node.origin, node.name.origin, value and value.origin, name)
 
 
 def _quantities(model: Model) -> list[tuple[Param, Number]]:
@@ -100,7 +142,7 @@ def _measures(number: Number) -> str:
     return "" if unit is None else describe(unit.dimension)
 
 
-def _stiffness(node: Span, name: Span, value: Span | None, param: str) -> tuple[str, Edit]:
+def _stiffness(node: Span, name: Span, value: Span | None, param: str) -> Mend:
     """1/k for the k of a C."""
     new = f"1/{param}"
     change = (Span(name.source, name.end, name.end), f" = {new}") if value is None else (value, new)
@@ -112,7 +154,7 @@ def _stiffness(node: Span, name: Span, value: Span | None, param: str) -> tuple[
     return words, Edit(f"write `{written}`", (change,))
 
 
-def _exchanged(one: Param, first: Number, other: Param, second: Number) -> tuple[str, Edit]:
+def _exchanged(one: Param, first: Number, other: Param, second: Number) -> Mend:
     """Two quantities in each other's place."""
     a, b = first.origin.text, second.origin.text
     edit = Edit(

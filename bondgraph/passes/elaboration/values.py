@@ -142,7 +142,7 @@ class Values(Calls):
             return port.effort, effort
         if name == "f":
             return port.flow, flow
-        if port.state is None or not port.state.symbol.name.endswith(name) or name not in "pq":
+        if port.state is None or name != port.stores:
             return None
         return port.state, self.quantities.integrated(flow if name == "q" else effort)
 
@@ -150,7 +150,7 @@ class Values(Calls):
         """What can be read of a node."""
         if len(node.ports) > 1 and node.element is not None and len(node.element.ports) == 1:
             return f"Name a port: `{node.local}.{node.ports[0].name}.e`."
-        state = node.element.state if node.element is not None else None
+        state = node.ports[0].stores if node.ports else ""
         more = f" `{node.local}.{state}` is its state." if state else ""
         return self.lookup.signals(node, node.local) + more
 

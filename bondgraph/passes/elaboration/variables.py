@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from bondgraph.ir.expr import Kind, Pool
+from bondgraph.library.elements import ElementKind
+from bondgraph.passes.elaboration.build_time import references
 from bondgraph.passes.elaboration.problems import Skip
 from bondgraph.passes.elaboration.scope import Given, NodeEntry, PortVariables
 from bondgraph.passes.elaboration.values import Values
@@ -23,8 +27,21 @@ def create(pool: Pool, node: NodeEntry) -> None:
         before, after = (path, port.name) if two or not port.name else (f"{path}.{port.name}", "")
         port.effort = pool.symbol(f"{before}.e{after}", Kind.EFFORT)
         port.flow = pool.symbol(f"{before}.f{after}", Kind.FLOW)
-        if element is not None and element.state is not None:
-            port.state = pool.symbol(f"{before}.{element.state}", Kind.STATE)
+        if element is not None:
+            port.stores = _stored(node, port, element)
+        if port.stores:
+            port.state = pool.symbol(f"{before}.{port.stores}", Kind.STATE)
+
+
+def _stored(node: NodeEntry, port: PortVariables, element: ElementKind) -> Literal["q", "p", ""]:
+    """What a port accumulates; where that may be q or p, the one that the laws use."""
+    if len(element.states) < 2:
+        return element.states[0] if element.states else ""
+    law = node.declaration.law if node.declaration is not None else None
+    sides = [side for q in law.equations for side in (q.left, q.right)] if law is not None else []
+    used = {tuple([p.name for p in ref.parts]) for side in sides for ref in references(side)}
+    found = [s for s in element.states if ((port.name, s) if port.name else (s,)) in used]
+    return found[0] if len(found) == 1 else ""
 
 
 def initial_values(node: NodeEntry, values: Values) -> None:
@@ -32,7 +49,9 @@ def initial_values(node: NodeEntry, values: Values) -> None:
     if not node.givens or node.element is None:
         return
     for port in node.ports:
-        wanted = f"{node.element.state}0"
+        if not port.stores:
+            continue
+        wanted = f"{port.stores}0"
         target = (port.name, wanted) if port.name else (wanted,)
         found: Given | None = None
         for given in node.givens:
@@ -59,7 +78,7 @@ def _initial(node: NodeEntry, port: PortVariables, given: Given, values: Values)
     port.initial, port.initial_value = values.pool.symbol(name, Kind.INITIAL), expr
     if port.slot >= 0:
         effort, flow = values.quantities.pair(port.slot)
-        stored = values.quantities.integrated(flow if name.endswith("q0") else effort)
+        stored = values.quantities.integrated(flow if port.stores == "q" else effort)
         values.quantities.same(stored, term, given.argument.origin,
                                f"the initial state of `{node.local}` has the unit of its state"
                                )  # fmt: skip

@@ -11,6 +11,7 @@ from bondgraph.ir.equation_system import Equation, EquationKind, EquationSystem
 from bondgraph.ir.expr import Expr, Kind, variables
 from bondgraph.ir.graph import Bond, BondGraph, End, Node
 from bondgraph.ir.groups import Groups
+from bondgraph.structural.floating import references
 from bondgraph.text.source import Span
 
 
@@ -21,6 +22,8 @@ class _Builder:
         self.alias: dict[Expr, Expr] = {}  # a port or junction variable to what stands for it
         self.common = Groups[Expr]()  # common variables of like junctions bonded together
         self.idle: set[int] = set()  # bonds that close a ring of like junctions
+        self.references = references(graph)  # junctions whose effort is zero, as nothing fixes it
+        self.ground: frozenset[Expr] = frozenset()  # and what is common to their bonds
         self.effort: list[Expr] = []
         self.flow: list[Expr] = []
         self.equations: list[Equation] = []
@@ -45,7 +48,8 @@ class _Builder:
         for end in (bond.tail, bond.head):
             node = nodes[end.node]
             if node.kind == junction and node.common is not None:
-                return self.common.find(node.common)
+                common = self.common.find(node.common)
+                return self.pool.zero if common in self.ground else common
         for end in (bond.head, bond.tail):
             if end.port >= 0:
                 port = nodes[end.node].ports[end.port]
@@ -62,9 +66,14 @@ class _Builder:
         """Decide the two variables of each bond and what every port variable becomes."""
         pool = self.pool
         self.merge_junctions()
+        grounded = [self.graph.nodes[n].common for n in self.references]
+        self.ground = frozenset([self.common.find(v) for v in grounded if v is not None])
         for node in self.graph.nodes:
-            if node.common is not None and self.common.find(node.common) is not node.common:
-                self.alias[node.common] = self.common.find(node.common)
+            if node.common is not None:
+                common = self.common.find(node.common)
+                common = pool.zero if common in self.ground else common
+                if common is not node.common:
+                    self.alias[node.common] = common
         for bond in self.graph.bonds:
             self.effort.append(self.bond_variable(bond, "0", "e"))
             self.flow.append(self.bond_variable(bond, "1", "f"))
@@ -123,7 +132,7 @@ class _Builder:
             self.write("law", node.path, self.own(law.zero), number, law.origin)
         for port in node.ports:
             if port.state is not None:
-                rate = self.own(port.flow if node.kind == "C" else port.effort)
+                rate = self.own(port.rate)
                 zero = self.pool.sub(self.pool.der(port.state), rate)
                 self.write(
                     "state", node.path, zero, number, node.origin, port.state, rate, port.initial
@@ -137,6 +146,8 @@ class _Builder:
             ends[bond.tail.node].append((bond, bond.tail))
             ends[bond.head.node].append((bond, bond.head))
         for number, node in enumerate(graph.nodes):
+            if number in self.references:
+                continue  # its balance follows from the others
             if node.common is not None:
                 self.balance(number, node, ends[number])
             else:

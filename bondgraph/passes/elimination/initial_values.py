@@ -14,7 +14,7 @@ from typing import TypeVar
 
 from bondgraph.algebra.numeric import Number, evaluate, nominal
 from bondgraph.ir.equation_system import Equation, EquationSystem
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.causality.node_words import listing, name
 from bondgraph.text.diagnostic import Label, Report
@@ -169,13 +169,13 @@ def _begins(system: EquationSystem, law: Equation, start: _Start) -> str:
     """`C:C1 begins with a voltage of 2 V`."""
     node = system.graph.nodes[law.node]
     domain = DOMAINS[node.domain or "any"]
-    effort = node.kind == "C"
-    what = domain.effort_name if effort else domain.flow_name
-    unit = domain.effort_unit if effort else domain.flow_unit
     row = start.row(law.zero)
     open_ = [v for v in row if v is not None]
     if len(open_) != 1:
         return f"{name(node)} begins as declared"
+    effort = open_[0].symbol.kind is Kind.EFFORT
+    what = domain.effort_name if effort else domain.flow_name
+    unit = domain.effort_unit if effort else domain.flow_unit
     value = float(-row.get(None, Fraction(0)) / row[open_[0]])
     article = "an" if what[0] in "aeiou" else "a"
     return f"{name(node)} begins with {article} {what} of {value:g} {unit}".rstrip()

@@ -143,7 +143,7 @@ class _Causaliser:
         for node in self.graph.nodes if order == 0 else ():
             if all(port.state is not variable for port in node.ports):
                 continue
-            others = [port.effort if node.kind == "C" else port.flow for port in node.ports]
+            others = [port.output for port in node.ports]
             for law in node.laws:
                 own, *pairs = sensitivity(pool, law.zero, [variable, *others]).values()
                 found += [pool.div(pair, own) for pair in pairs if pair is not pool.zero is not own]

@@ -8,8 +8,9 @@ import re
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
-from bondgraph.ir.graph import BondGraph, Input, Node, Sensor
+from bondgraph.ir.graph import BondGraph, Input, Node, Port, Sensor
 from bondgraph.ir.unit import Dimension, over, times
+from bondgraph.library.elements import STORAGES
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.outside import Outside
 from bondgraph.runtime.simulation.machine import named
@@ -95,10 +96,10 @@ def _where(source: Source, error: WrongData) -> Span:
     return Span(source, start, min(start + 1, len(source.text)))
 
 
-def _state_unit(storage: Node) -> Dimension | None:
+def _state_unit(storage: Node, port: Port) -> Dimension | None:
     """The dimension of a charge or an impulse; None where the domain leaves it open."""
     domain = DOMAINS.get(storage.domain or "")
-    rate = domain and (domain.flow if storage.kind == "C" else domain.effort)
+    rate = domain and (domain.flow if port.stores == "q" else domain.effort)
     return times(rate, SECOND) if rate else None
 
 
@@ -204,7 +205,7 @@ class _Reader:
 
     def _initial(self, table: Table) -> dict[str, float]:
         states = {
-            port.state.symbol.name: _state_unit(node)
+            port.state.symbol.name: _state_unit(node, port)
             for node in self.graph.nodes
             for port in node.ports
             if port.state is not None
@@ -404,7 +405,7 @@ class _Reader:
         return self._listed(top, "record", "effort or flow", named(self.graph))
 
     def _static(self, top: Table) -> tuple[str, ...]:
-        paths = [n.path for n in self.graph.nodes if n.kind in ("C", "I")]
+        paths = [n.path for n in self.graph.nodes if n.kind in STORAGES]
         inside = {p[:k] for p in paths for k, c in enumerate(p) if c in ".["} | set(paths)
         return self._listed(top, "quasi_static", "storage", sorted(inside))
 

@@ -11,15 +11,15 @@ from xml.etree import ElementTree
 import pytest
 
 import bondgraph
-from bondgraph.backends.drawing.arrange import framed
-from bondgraph.backends.drawing.arrows import Arrow, with_arrows
-from bondgraph.backends.drawing.canvas import around, inside
+from bondgraph.backends.drawing.canvas import Box, Canvas
+from bondgraph.backends.drawing.detour import detour
 from bondgraph.backends.drawing.pixels import pixels
-from bondgraph.backends.drawing.scene import Look, scene
+from bondgraph.backends.drawing.scene import Look
 from bondgraph.backends.drawing.shapes import Area, Stroke, Words, shapes
 from bondgraph.backends.drawing.signals import Signal, signals
 from bondgraph.backends.drawing.tikz import tikz
 from bondgraph.cli.main import main
+from tests.unit.backends.legibility import drawn
 
 MODELS = sorted((Path(__file__).parents[3] / "models").glob("*.bg"))
 CONTROLLED = """\
@@ -34,12 +34,6 @@ model Heating {
     room -> De:y
 }
 """
-
-
-def _drawn(compilation: bondgraph.Compilation, look: Look = Look()) -> tuple[Arrow, ...]:  # noqa: B008
-    causal = compilation.integral
-    view, figure = framed(lambda unframed: scene(causal, unframed, look))
-    return with_arrows(view, figure, signals(causal.graph))[1]
 
 
 def _named(path: str) -> dict[str, Signal]:
@@ -67,36 +61,39 @@ def test_a_controller_is_a_block_that_gets_its_sensor() -> None:
     nodes = compilation.graph.nodes
     assert nodes[found.node].path == "burner" and found.block and found.label == "f(y, goal)"
     assert [nodes[n].path for n in found.origins] == ["y"]
-    (arrow,) = _drawn(compilation)
+    (arrow,) = drawn(compilation.integral).arrows
     assert arrow.box is not None and len(arrow.ways) == 1
     svg = compilation.drawing()
     assert "f(y, goal)" in svg and 'class="block' in svg and "thin arrow: signal" in svg
     assert "thin arrow" not in bondgraph.compile("models/dc_motor.bg").drawing()
 
 
-@pytest.mark.parametrize("path", MODELS, ids=lambda p: p.stem)
-def test_every_modulated_element_has_its_arrow_and_nothing_lies_upon_it(path: Path) -> None:
-    compilation = bondgraph.compile(str(path), open_ports=True)
-    causal = compilation.integral
-    view, plain = framed(lambda unframed: scene(causal, unframed))
-    acting = signals(causal.graph)
-    figure, arrows = with_arrows(view, plain, acting)
-    assert sorted(a.signal.node for a in arrows) == sorted(s.node for s in acting)
-    modulated = {n for n, node in enumerate(causal.graph.nodes) if node.keyword != node.kind}
-    assert modulated <= {a.signal.node for a in arrows}
-    boxes = {n: around(*at, view.items[n].w, view.items[n].h) for n, at in figure.centre.items()}
-    texts = [a.box for a in arrows if a.box is not None]
-    for one, two in itertools.combinations([*boxes.values(), *texts], 2):
-        assert not one.meets(two)
-    for arrow in arrows:
-        own = boxes[arrow.signal.node]
-        assert own.grow(9).holds(around(*arrow.tip[-1], 0.1, 0.1))  # it ends beside its element
-        for way in (arrow.tip, *arrow.ways):
-            for n, box in boxes.items():
-                if n not in (arrow.signal.node, *arrow.signal.origins):
-                    assert not any(inside(p, q, box) for p, q in itertools.pairwise(way)), n
-        for x, y in itertools.chain(arrow.tip, *arrow.ways):
-            assert -1 <= x <= figure.size[0] + 1 and -1 <= y <= figure.size[1] + 1
+def test_a_detour_goes_round_texts_and_lines_and_gives_up_in_time() -> None:
+    here, to, paper = Box(0, 90, 20, 110), Box(280, 90, 300, 110), Box(0, 0, 300, 200)
+    texts, lines = Canvas(), Canvas()
+
+    def length(most: int = 5000) -> float:
+        way, seen = detour(here, to, paper, texts, lines, most)
+        assert way is not None and seen <= most
+        assert all(texts.room_for_line(p, q) for p, q in itertools.pairwise(way))
+        assert sum(lines.crossings(p, q) for p, q in itertools.pairwise(way)) == crossed
+        return sum(math.dist(p, q) for p, q in itertools.pairwise(way))
+
+    crossed = 0
+    free = length()
+    assert free == pytest.approx(260, abs=12)  # straight, but for the grid
+    lines.line((150, -20), (150, 150))  # below it: a bond with its end at 150
+    below = length()
+    assert below == pytest.approx(2 * math.hypot(130, 50), rel=0.1)
+    texts.box(Box(140, 150, 160, 300))  # no way below without crossing, nor above: the bond is long
+    lines.line((150, -20), (150, -100))
+    crossed = 1
+    assert length() == pytest.approx(260, rel=0.1)
+    assert detour(here, to, paper, texts, lines, 5) == (None, 5)
+    for side in (Box(260, 70, 320, 80), Box(260, 120, 320, 130), Box(260, 70, 265, 130)):
+        texts.box(side)
+    texts.box(Box(310, 70, 320, 130))
+    assert detour(here, to, paper, texts, lines, 5000)[0] is None
 
 
 def test_values_numbers_and_boxes_on_request() -> None:

@@ -13,6 +13,7 @@ from bondgraph.backends.target import load, targets
 from bondgraph.backends.templates import codegen
 from bondgraph.ir.program import Field, ResidualInfo
 from bondgraph.pipeline import Compilation
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.source import Source
 from tests.unit.backends import programs
 
@@ -25,16 +26,30 @@ def test_few_files_and_more_where_asked_for() -> None:
     few = ["motor.h", "motor.c", "CMakeLists.txt", "motor.py", "README.md"]
     assert [a.path for a in emit(programs.motor(), ("c", "python"))] == few
     every = [a.path for a in emit(programs.motor(), ("c", "python"), extras=EXTRAS)]
-    assert [path for path in every if "/" not in path] == few
-    assert sorted(path for path in every if "/" in path) == [
+    assert [path for path in every if path in few] == few
+    assert sorted(path for path in every if path not in few) == [
+        "Kconfig",
+        "MISRA.md",
         "exact/motor_exact.c",
         "exact/motor_exact.h",
         "exact/motor_exact.py",
         "example/example.c",
         "example/example.py",
+        "examples/motor_watch/motor_watch.ino",
+        "idf_component.yml",
+        "library.json",
+        "library.properties",
+        "qemu/link.ld",
+        "qemu/start.c",
+        "ros2/CMakeLists.txt",
+        "ros2/node.cpp",
+        "ros2/package.xml",
         "tests/golden.h",
         "tests/selftest.c",
         "tests/selftest.py",
+        "zephyr/CMakeLists.txt",
+        "zephyr/Kconfig",
+        "zephyr/module.yml",
     ]
     assert [a.path for a in emit(programs.motor(), ("python",))][-1] == "README.md"
 
@@ -42,6 +57,8 @@ def test_few_files_and_more_where_asked_for() -> None:
 def test_an_unknown_extra_is_refused_by_name() -> None:
     with pytest.raises(ValueError, match=r"'poem'; there are tests, exact, example"):
         emit(programs.motor(), ("c",), extras=("poem",))
+    with pytest.raises(Trouble, match="qemu goes with code in C"):
+        emit(programs.motor(), ("python",), extras=("qemu", "example"))
 
 
 def test_an_unknown_target_is_refused_by_name() -> None:
@@ -75,7 +92,7 @@ def test_text_is_tidy(make: programs.Maker) -> None:
         for line in text.splitlines():
             assert line == line.rstrip(), (path, line)
             assert "\t" not in line
-            assert path == "README.md" or len(line) <= 100, (path, line)
+            assert path.endswith(".md") or len(line) <= 100, (path, line)
         assert "\n\n\n\n" not in text and "models/" not in text
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from bondgraph.backends.write import MANIFEST, ForeignFiles, write
+from bondgraph.backends.write import MANIFEST, ForeignFiles, changes, write
 from bondgraph.ir.artifact import Artifact
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
@@ -28,6 +28,25 @@ def test_again_replaces_keeps_and_removes_its_own(tmp_path: Path) -> None:
     write((Artifact("a.c", "one\n"), Artifact("c.h", "three\n")), tmp_path / "out")
     assert (tmp_path / "out/a.c").stat().st_mtime_ns == kept  # make need not compile it again
     assert (tmp_path / "out/c.h").exists() and not (tmp_path / "out/deep/b.py").exists()
+
+
+def test_costs_stay_with_the_code_that_they_are_of(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    head, costs, tail = "# M\n\n## Use\nthis\n", "\n## What it costs\n| 7 |\n", "\n## More\nthat\n"
+    measured = (Artifact("a.c", "one\n"), Artifact("README.md", head + costs + tail))
+    plain = (Artifact("a.c", "one\n"), Artifact("README.md", head + tail))
+    write(measured, out)
+    assert {c.what for c in changes(plain, out)} == {"same"}
+    write(plain, out)
+    assert (out / "README.md").read_text() == head + costs + tail
+    other = (Artifact("a.c", "two\n"), plain[1])
+    assert [c.what for c in changes(other, out)] == ["changed", "changed"]
+    write(other, out)
+    assert (out / "README.md").read_text() == head + tail
+    write(measured, out)
+    (out / "README.md").write_text(f"mine {costs}")
+    with pytest.raises(ForeignFiles, match=r"README\.md"):
+        write(plain, out)
 
 
 @pytest.mark.parametrize("made", ["by somebody", "by us and edited"])

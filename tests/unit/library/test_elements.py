@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bondgraph.library.elements import JUNCTIONS, KINDS, SIGNALS
+from bondgraph.library.elements import JUNCTIONS, KINDS, SIGNALS, STORAGES
 
 
 @pytest.mark.parametrize("keyword", KINDS)
@@ -15,11 +15,11 @@ def test_keyword_is_kind_with_or_without_the_sign_of_modulation(keyword: str) ->
     assert keyword not in JUNCTIONS
 
 
-def test_storages_keep_what_they_integrate_and_give_the_other() -> None:
-    # a C integrates its flow to q and gives an effort; an I integrates its effort and gives a flow
-    assert (KINDS["C"].state, KINDS["C"].output) == ("q", "e")
-    assert (KINDS["I"].state, KINDS["I"].output) == ("p", "f")
-    assert [k for k, v in KINDS.items() if v.state is not None] == ["C", "I"]
+def test_storages_keep_what_they_integrate() -> None:
+    # a C integrates its flow to q, an I its effort to p, a port of an IC either
+    stored = {k: v.states for k, v in KINDS.items() if v.states}
+    assert stored == {"C": ("q",), "I": ("p",), "IC": ("q", "p")}
+    assert tuple(stored) == STORAGES
 
 
 def test_ports_and_variables_of_laws() -> None:
@@ -28,9 +28,8 @@ def test_ports_and_variables_of_laws() -> None:
         for name in kind.variables:
             assert name in SIGNALS
             assert name[1:] in kind.ports
-        if kind.state is not None:
-            assert kind.state in kind.variables
+        assert set(kind.states) <= set(kind.variables)
 
 
-def test_a_transformer_has_no_default() -> None:
-    assert [k for k, v in KINDS.items() if not v.coefficient] == ["TF", "MTF"]
+def test_a_transformer_and_a_mixed_field_have_no_default() -> None:
+    assert [k for k, v in KINDS.items() if not v.coefficient] == ["IC", "TF", "MTF"]

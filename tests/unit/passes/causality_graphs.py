@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from typing import Literal
 
 import networkx as nx
 
@@ -14,6 +15,9 @@ from bondgraph.text.source import Source, Span
 
 _NODE = re.compile(r"(\w+):(\w+)(!?)")
 _ARROW = re.compile(r"\s*(->|<-)\s*")
+
+
+_STORES: dict[str, Literal["q", "p"]] = {"C": "q", "I": "p"}
 
 
 def build(text: str) -> BondGraph:
@@ -73,6 +77,7 @@ def assemble(
                 str(i + 1) if sizes > 1 else "",
                 pool.symbol(f"{name}.e{i}", Kind.EFFORT),
                 pool.symbol(f"{name}.f{i}", Kind.FLOW),
+                _STORES.get(kind, ""),
             )
             for i in range(sizes)
         )

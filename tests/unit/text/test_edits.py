@@ -63,6 +63,23 @@ def test_mistakes_that_were_seen(body: str, title: str) -> None:
     assert not [d for d in found(changed(text, edits[0])) if d.severity == "error"]
 
 
+def test_two_mistakes_in_units_are_told_one_at_each_finding() -> None:
+    body = (
+        "param R = 2 mH; param L = 3 Ohm; param k = 2 N/m; param g = 1 N/A; param m = 1 kg\n"
+        "Se:U -> 1:i; i -> R:R; i -> I:L; i -> {} -> 1:v; v -> I:m; v -> C:k"
+    )
+    swap, inverse = "exchange 2 mH and 3 Ohm", "write `C:k = 1/k`"
+    # Two parts, each with a mistake: each finding has the change that takes it away.
+    apart = found(f"bg 1\nmodel M {{ {body.format('R:r = 1; Se:F')}\n}}\n")
+    assert [e.title for d in apart for e in d.edits] == [swap, inverse]
+    # In one part the first contradiction hides the second, which is told once that is mended.
+    text = f"bg 1\nmodel M {{ {body.format('GY:y { e1 = g*f2 }')}\n}}\n"
+    (first,) = [d for d in found(text) if d.code == "unit-mismatch"]
+    assert [e.title for e in first.edits] == [swap]
+    (second,) = [d for d in found(changed(text, first.edits[0])) if d.code == "unit-mismatch"]
+    assert [e.title for e in second.edits] == [inverse]
+
+
 def examples() -> list[tuple[str, str]]:
     """Every text of the tests and of the pages about errors that is wrong in some way."""
     texts = [(p.name, p.read_text(encoding="utf-8")) for p in (ROOT / "tests/broken").glob("*.bg")]

@@ -14,7 +14,7 @@ from tests.unit.runtime.live.test_page import Page
 
 _CODES = {"Enter": 13, "Tab": 9, "Escape": 27, "End": 35, "Home": 36, "ArrowUp": 38,
           "ArrowDown": 40, "ArrowLeft": 37, "ArrowRight": 39, "Delete": 46,
-          "Backspace": 8}  # fmt: skip
+          "Backspace": 8, "F2": 113}  # fmt: skip
 
 
 class Workbench(Page):

@@ -81,6 +81,26 @@ def test_a_flood_of_texts_is_answered_by_the_newest(bench: Workbench) -> None:
     }  # fmt: skip
 
 
+def test_derivations_are_answered_beside_a_run(bench: Workbench) -> None:
+    async def talk(session: Any, page: Any) -> dict[str, Any]:
+        await page.send_json({"do": "look", "version": 1, "text": MODEL, "model": ""})
+        await _until(page, "derived", 1)
+        await page.send_json({"do": "run", "id": 7, "scenario": "duration = 1\n", "faults": []})
+        for name in ("r1", "r9", 5):
+            await page.send_json({"do": "derive", "name": name})
+        found: dict[str, Any] = {}
+        while len(found) < 3:
+            message = json.loads((await asyncio.wait_for(page.receive(), 60)).data)
+            found[message.get("name", message["type"])] = message
+        return found
+
+    found = _read(bench.address, talk)
+    assert sorted(found) == ["r1", "r9", "run"] and found["run"]["id"] == 7
+    ((part,),) = [found["r1"]["parts"]]
+    assert part["ending"].startswith("SymPy agrees") and part["steps"][0]["node"] == "U"
+    assert found["r9"]["parts"] == [] and "r9" in found["r9"]["message"]
+
+
 def test_pages_from_elsewhere_are_refused(bench: Workbench) -> None:
     async def look() -> None:
         async with aiohttp.ClientSession() as session:

@@ -56,6 +56,49 @@ def test_its_residual_stands_there_as_a_formula_with_its_path(page: Workbench) -
     assert page.text("#tab-signatures .count") == "4"
 
 
+def test_its_derivation_is_replayed_step_by_step(page: Workbench) -> None:
+    page.push(".derivation summary")
+    page.until("document.querySelectorAll('.derivation li').length > 2")
+    steps = page.tab.run("[...document.querySelectorAll('.derivation li .why:first-child')]"
+                         ".map((e) => e.textContent)")  # fmt: skip
+    # By hand: the laws of R and L for their voltages, then the balance of the loop is left over.
+    assert any(s.startswith("law of R") and "solve for" in s for s in steps)
+    assert any("differentiate its state" in s for s in steps)
+    assert any("left over, all its unknowns are known" in s for s in steps)
+    assert page.text(".derivation > .note:last-child").startswith("SymPy agrees")
+    page.point(".derivation li:first-child")
+    page.until("document.querySelector('#drawing .now, #drawing svg .now')")
+    page.push(".derivation summary")
+
+
+def test_f2_renames_at_all_places(page: Workbench) -> None:
+    def rename(new: str) -> None:
+        page.write()
+        page.press("Home", control=True)
+        for _ in range(3):
+            page.press("ArrowDown")
+        page.press("End")
+        page.press("Home")
+        for _ in "param R":  # the cursor stands behind the name
+            page.press("ArrowRight")
+        page.press("F2")
+        page.until("document.querySelector('#rename').open")
+        page.type(new)
+        page.press("Enter")
+
+    assert page.tab.run("workbench.text.match(/\\bR\\b/g).length") == 3
+    rename("L")
+    page.until("document.querySelector('#notice').textContent.startsWith('Not renamed: ')")
+    before = page.typed_text()
+    rename("Rc")
+    page.until("workbench.text.includes('param Rc')")
+    assert page.typed_text() == before.replace("param R ", "param Rc ").replace("R:R", "R:Rc")
+    page.press("z", control=True)  # one step back
+    page.until(f"workbench.text === {before!r}")
+    page.until("document.querySelectorAll('.relation:not(.stale *)').length === 1")
+    page.until("document.querySelector('#drawing [data-node=R]')")
+
+
 def test_a_row_lights_its_element_and_its_line(page: Workbench) -> None:
     page.push("#tab-signatures")
     page.point("tr[data-fault=R]")

@@ -167,6 +167,19 @@ def test_the_cursor_reads_what_the_exported_table_has(page: Page) -> None:
     assert _number(page.text("#cursor").split()[2]) < at
 
 
+def test_the_cursor_is_under_the_pointer_wherever_the_page_is_scrolled_to(page: Page) -> None:
+    # uPlot remembers where a chart is; what moves it without an event has to be noticed, too.
+    for moved in ("window.scrollBy(0, 37)", "document.body.style.transform = 'translateX(-23px)'",
+                  "document.body.style.transform = ''"):  # fmt: skip
+        page.tab.run(moved)
+        left, top, width, height = _place(page, 0)
+        for part in (0.4, 0.6):
+            _mouse(page, "mouseMoved", left + part * width, top + height / 2)
+        line = "document.querySelector('#strips .strip .u-cursor-x').getBoundingClientRect().left"
+        page.until(f"Math.abs({line} - {left + 0.6 * width}) < 1.5")
+    page.tab.run("window.scrollTo(0, 0)")
+
+
 def test_dragging_zooms_all_charts_and_double_click_follows_again(page: Page) -> None:
     before = page.tab.run(_CHARTS)
     left, top, width, height = _place(page, 0)

@@ -1,0 +1,2 @@
+function(ament_package)
+endfunction()
