@@ -9,7 +9,7 @@ import numpy as np
 from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
-SHARE = 0.03  #: of a residual: the deviation of what is said of it, as laws are bent
+SHARE = 0.05  #: of a residual: the deviation of what is said of it, as laws are bent
 
 
 class Shares(NamedTuple):

@@ -38,23 +38,42 @@ def _density(value: np.ndarray, covariance: np.ndarray) -> float:
     return float(multivariate_normal.logpdf(value.ravel(), cov=covariance))
 
 
+def _chunks(rows: int) -> tuple[int, list[int]]:
+    """The length of a chunk and the number of that of each row; only the first one may be short."""
+    length = max(_CHUNK, math.ceil(rows / _PARTS))
+    chunks = math.ceil(rows / length)
+    return length, [chunks - 1 - behind // length for behind in reversed(range(rows))]
+
+
+def _course(rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """A change that moves: what rows have of the ends of chunks, and how these are correlated.
+
+    By 0.95 from one to the next; between them it is a straight line.
+    """
+    length, chunk = _chunks(rows)
+    ends = np.arange(chunk[-1] + 2)
+    when = [ends[-1] - (rows - 1 - t) / length for t in range(rows)]  # in chunks
+    line = np.stack([np.interp(when, ends, one) for one in np.eye(len(ends))], axis=1)
+    return line, _KEEP ** np.abs(np.subtract.outer(ends, ends))
+
+
 def _off(value: np.ndarray) -> np.ndarray:
-    """The covariance of what the model is off by, of (rows, residuals): 3 % of each value.
+    """The covariance of what the model is off by, of (rows, residuals): 5 % of each value.
 
     Of the variance each octave of memories has the same share: 1, 2, 4, ... rows up to a chunk;
     those between a chunk and all rows half within chunks and half for ever; one that lasts longer.
     """
     rows, residuals = value.shape
-    length = max(_CHUNK, math.ceil(rows / _PARTS))
+    length, chunk = _chunks(rows)
     between = max(math.log2(rows) - math.log2(length), 0.0)
     octaves = [2.0**k for k in range(round(math.log2(length)) + 1)]
     found = np.zeros((rows, residuals, rows, residuals))
     for s, t, k in product(range(rows), range(rows), range(residuals)):
         kept = between / 2.0 + 1.0
-        if s // length == t // length:
+        if chunk[s] == chunk[t]:
             kept += between / 2.0 + sum(math.exp(-abs(s - t) / memory) for memory in octaves)
         share = kept / (len(octaves) + between + 1.0)
-        found[s, k, t, k] = 0.03**2 * value[s, k] * value[t, k] * share
+        found[s, k, t, k] = 0.05**2 * value[s, k] * value[t, k] * share
     return found.reshape(rows * residuals, rows * residuals)
 
 
@@ -87,10 +106,10 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
     healthy = np.diag(1.0 / weight.ravel()) + shared @ np.diag(spread**2) @ shared.T
     behind = slice(before * residuals, None)
     healthy[behind, behind] += _off(value[before:])
-    steps = np.arange(after) // max(_CHUNK, math.ceil(after / _PARTS))
-    moving = _KEEP ** np.abs(np.subtract.outer(steps, steps))
-    courses = [np.kron(kept, np.ones((residuals, residuals)))
-               for kept in (moving, np.ones_like(moving))]  # fmt: skip
+    line, kept = _course(after)
+    moving = line @ kept @ line.T
+    courses = [np.kron(course, np.ones((residuals, residuals)))
+               for course in (moving, np.ones_like(moving))]  # fmt: skip
     both = [hypotheses.index(h) for h in pair.hypotheses]
     assert sorted(h.fault for h in pair.hypotheses) == ["a", "b"]
     for fault, ways in (("a", [[0]]), ("b", [[1], [2], [3], [1, 2, 3]]), ("both", [both])):
@@ -179,13 +198,13 @@ def _exact_ratio(
     many = np.vectorize(mpf, otypes=[object])
     noise = np.eye(len(value)) + _off(value[:, None])
     healthy = many(noise) + many(rest) @ many(rest).T
-    steps = np.arange(len(value)) // _CHUNK
-    moving = _KEEP ** np.abs(np.subtract.outer(steps, steps))
-    courses = [many(moving), many(np.ones_like(moving))]
+    line, kept = map(many, _course(len(value)))
+    moving = line @ kept @ line.T
+    courses = [moving, many(np.ones_like(moving))]
     ratios = []
-    for own, scale, kept in product(ways, _SCALES, courses):
+    for own, scale, course in product(ways, _SCALES, courses):
         one = many(slopes[:, own]) * mpf(scale)
-        ratios.append(_log_density(healthy + (one @ one.T) * kept, value))
+        ratios.append(_log_density(healthy + (one @ one.T) * course, value))
     total = mpmath.log(mpmath.fsum(map(mpmath.exp, ratios)) / len(ratios))
     return float(total - _log_density(healthy, value))
 
