@@ -14,7 +14,7 @@ from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, slack, tolerated
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
-from bondgraph.runtime.diagnosis.isolation import inverse
+from bondgraph.runtime.diagnosis.isolation import Explained, inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
@@ -361,6 +361,46 @@ class Diagnosis:
         out.append(Verdict("cleared", row.time, self._judge.latched.since, message=message))
         self._detection.clear()
         self._judge.clear()
+
+    # ----------------------------------------------------------------- acceptance
+
+    @property
+    def unusual(self) -> frozenset[str]:
+        """The signals that are unusual by themselves now."""
+        return frozenset(self._checks.active)
+
+    def wrong(self) -> Explained | None:
+        """The fault that explains all, as it is known by now; None while there is none."""
+        return self._judge.wrong(self._history)
+
+    def succeed(self, other: Diagnosis) -> None:
+        """Take over all that another watch knows of a machine that has an accepted fault less.
+
+        Its alarm is over. What was accepted since is known as it is accepted.
+        """
+        mine, its = self._model.accepted, other._model.accepted
+        anew = {key for key, deviation in mine.items() if its.get(key) != deviation}
+        before = {(h.fault, h.kind): k for k, h in enumerate(other._tolerated)}
+        known = (*self._tolerated, *other._tolerated[other._lasting :])
+        keys = [(h.fault, h.kind) for h in known]
+        keep = [k for k in keys if k in before and k not in anew]
+        more = [k for k in keys if k not in keep]
+        priors = [float(self._history.prior[keys.index(k)]) for k in more]
+        gone = [before[k] for k in more if k in before]
+        history = other._history.anew(gone, [before[k] for k in keep], priors)
+        self._history = history.ordered([[*keep, *more].index(k) for k in keys])
+        self._tolerated = known
+        self.restart()
+        self._detection = other._detection
+        self._detection.clear()
+        self._judge.succeed(other._judge)
+        self._origins.resume(other._origins.state(known[self._lasting :]))
+        self._checks.resume({**other._checks.state(), "active": []})
+        if self._learning is not None and other._learning is not None:
+            self._learning.resume(other._limits, other._learning.state())
+        elif other._learning is None:
+            self._learning = None
+        self._limits = other._limits
 
     # ---------------------------------------------------------------- persistence
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
@@ -43,7 +44,9 @@ class DiagnosisModel(NamedTuple):
     `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
     does not tell apart; `memories` are what residuals keep of their first sample; `natures` by
     residual; `deliveries` are the faults that are what a controller gives beyond its command;
-    `switches` that may be stuck, by the name of the fault. `doubles` tells which two faults at once
+    `switches` that may be stuck, by the name of the fault. `accepted` are faults that the machine
+    is known to have, with the kind of their hypothesis and the deviation of what is known: what is
+    nominal is so with them. `doubles` tells which two faults at once
     could look like a third one, when it is asked.
     """
 
@@ -57,6 +60,7 @@ class DiagnosisModel(NamedTuple):
     deliveries: frozenset[str]
     switches: Mapping[str, Stuck]
     doubles: Callable[[], DoubleFaults]
+    accepted: Mapping[tuple[str, str], float] = MappingProxyType({})
 
     @property
     def nominal(self) -> dict[str, float]:
@@ -177,11 +181,13 @@ def tolerated(
     """What may be off for ever while all is well, and by how much (standard deviations).
 
     Parameters within their tolerances, and encoders by one count: where within a count an encoder
-    stands when it begins to count, nobody knows.
+    stands when it begins to count, nobody knows. What was accepted by what its estimate may be off.
     """
     found, most = [], []
     for one in known:
-        if one.kind == "value" and model.tolerances.get(one.fault):
+        if (one.fault, one.kind) in model.accepted:
+            most.append(math.sqrt(3.0) * model.accepted[one.fault, one.kind])
+        elif one.kind == "value" and model.tolerances.get(one.fault):
             most.append(model.tolerances[one.fault] * abs(model.faults[one.fault] or 0.0))
         elif one.kind == "offset" and one.unit == COUNT:
             most.append(_COUNT)

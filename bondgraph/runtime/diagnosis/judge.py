@@ -82,6 +82,20 @@ class Judge:
             return None
         return self._compared.shows(self._best)
 
+    def wrong(self, history: History) -> Explained | None:
+        """The fault that explains all, as it is known by now."""
+        if self._best is None or self._compared is None:
+            return None
+        try:
+            found = self._compared.explained(history, (self._best.fault,))
+        except np.linalg.LinAlgError:
+            return None
+        return next((one for one in found if one.fault == self._best.fault), None)
+
+    def succeed(self, other: Judge) -> None:
+        """Take over what another one has learned of signals."""
+        self._sizes = other._sizes
+
     def learn(self, samples: Array) -> None:
         """Further (n, signals) samples, one after the other."""
         self._sizes.add(samples)
