@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
 from bondgraph.runtime.diagnosis.naming import candidate
-from bondgraph.runtime.diagnosis.rows import together
+from bondgraph.runtime.diagnosis.rows import to_row_ends, together
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.verdict import Candidate, Verdict, from_json, to_json
@@ -76,6 +76,7 @@ class AcceptedFaults:
         self._place = {k.path: at for at, k in enumerate(engine.signals)}
         self._warm = math.ceil(_BACK * engine.warm_up / engine.sample_time)
         self._recent: deque[tuple[Array, Array]] = deque()  # times and samples as they came in
+        self._count = 0  # of these samples
         self._last: list[Batch] = []  # of the last update
         self._named: Verdict | None = None  # the newest verdict of this alarm, if it has a class
         self.accepted: tuple[Accepted, ...] = ()
@@ -99,7 +100,7 @@ class AcceptedFaults:
         """See `Decision`; row by row, so that faults are accepted at the same times always."""
         out: list[Verdict] = []
         self._last = []
-        for own in self._rows(time):
+        for own in to_row_ends(time, self._declared.sample_time, self._every):
             told = self._told(samples[own])
             given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
             if self.accepted:
@@ -131,19 +132,11 @@ class AcceptedFaults:
         self._watch.restart()
         self._engine.reset()
         self._recent.clear()
+        self._count = 0
 
     def waits(self) -> dict[str, str]:
         """See `Decision`."""
         return self._watch.waits()
-
-    def _rows(self, time: Array) -> Iterator[slice]:
-        """Up to the end of each row, as a `Diagnosis` has them."""
-        start = 0
-        while start < len(time):
-            number = round(float(time[start]) / self._declared.sample_time)
-            stop = min(len(time), start + self._every - number % self._every)
-            yield slice(start, stop)
-            start = stop
 
     def _told(self, samples: Array) -> Array:
         """Samples as the machine that is watched should have told them."""
@@ -159,8 +152,9 @@ class AcceptedFaults:
     def _remember(self, time: Array, samples: Array) -> None:
         """Samples by which the filters of another engine become warm."""
         self._recent.append((time.copy(), samples.copy()))
-        while sum(len(t) for t, _ in self._recent) - len(self._recent[0][0]) >= self._warm:
-            self._recent.popleft()
+        self._count += len(time)
+        while self._count - len(self._recent[0][0]) >= self._warm:
+            self._count -= len(self._recent.popleft()[0])
 
     # ----------------------------------------------------------------- acceptance
 

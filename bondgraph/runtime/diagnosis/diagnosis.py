@@ -25,6 +25,7 @@ from bondgraph.runtime.diagnosis.rows import (
     Row,
     all_of,
     averaged,
+    to_row_ends,
     together,
     usual,
     weight,
@@ -138,13 +139,10 @@ class Diagnosis:
     def _parts(
         self, time: Array, batch: Batch, samples: Array, out: list[Verdict], again: bool = False
     ) -> Iterator[Part]:
-        """Up to the end of each row; rows end at the same times whenever one begins to look."""
-        start = 0
-        while start < len(time):
-            number = round(float(time[start]) / self._engine.sample_time)
-            stop = min(len(time), start + self._every - number % self._every)
-            own = slice(start, stop)
-            self._ends = (number + stop - start) % self._every == 0
+        """Up to the end of each row."""
+        for own in to_row_ends(time, self._engine.sample_time, self._every):
+            number = round(float(time[own.start]) / self._engine.sample_time)
+            self._ends = (number + own.stop - own.start) % self._every == 0
             self._origins.take(time[own], samples[own], self._past, again)
             slopes = self._bank.run(samples[own])
             given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
@@ -155,7 +153,6 @@ class Diagnosis:
             self._status.warm_up(time[own], valid, self._limits[:, 0], self._origins, out)
             bound = np.where(valid, bound + slack(self._tolerated, slopes) + doubt, 0.0)
             yield Part(time[own], samples[own], value, valid, bound, doubt, slopes)
-            start = stop
 
     def _row(self, part: Part, out: list[Verdict]) -> Row | None:
         """Add samples to the row; the row, when it is full."""
