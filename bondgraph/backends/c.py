@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from bondgraph.backends import decision, listing
 from bondgraph.backends.blocks import Block
+from bondgraph.backends.c_functions import Functions, Unit, Written
 from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.facts import (
     ABI,
@@ -23,9 +24,12 @@ from bondgraph.backends.facts import (
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples, signals
 from bondgraph.backends.nominal_coefficients import Nominal, nominal
+from bondgraph.backends.one_procedure import Start
 from bondgraph.backends.parts import exact_part, step_part
-from bondgraph.backends.procedure_lines import About, lines, procedure, roots, tables
+from bondgraph.backends.procedure_lines import ANYTHING, About, lines, roots, tables
+from bondgraph.backends.program_units import grouped, units
 from bondgraph.backends.repeated import repeated
+from bondgraph.backends.short_functions import parts
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.templates import fill
@@ -40,6 +44,7 @@ from bondgraph.ir.program import (
     Program,
     Ref,
     ResidualInfo,
+    Statement,
 )
 from bondgraph.notation.dialect import CodeSpeller, digits
 from bondgraph.notation.walk import reads
@@ -95,6 +100,8 @@ def files(
         "fixed": False,
     }
     found["decides"] = bool(found["decides"]) and decides
+    for name in ("has_math", "needs_stddef"):  # an amount, and NULL where there are no bounds
+        found[name] = found[name] or found["decides"]
     cores = [one.core() for one in codes]
     found["constants"] = cores[0]["constants"]
     for name, core in zip(("residuals", "thresholds"), cores, strict=False):
@@ -131,7 +138,7 @@ def exact(program: Program, target: Target) -> dict[str, object]:
         "coefficients": core["coefficients"] or ["    char unused;"],
         "coefficients_code": fill("c/coefficients.c.j2", core).rstrip("\n"),
         "coefficient_values": core["coefficient_values"],
-        "exact": code.exact(),
+        **code.exact(),
     }
     return found
 
@@ -162,6 +169,7 @@ def _file(about: Facts, codes: list[Code], target: Target) -> dict[str, object]:
         "tables": list({r["name"]: r for r in rows}.values()),
         "roots": list({r["name"]: r for r in shown}.values()),
         "needs_functions": needs_library(about),
+        "has_math": needs_library(about),
         "libm": " -lm" if needs_library(about) else "",
         "needs_math": needs_library(facts(program)) or unset or bool(shown) or gaps or lines
         or (unwritten and not program.step),
@@ -327,7 +335,7 @@ class Code:
             "stem": self.stem,
             "base": self.base,
             "own": self.own,
-            "run": "bound" if self.own else "run",
+            "run": self._verb,
             "bounds": program.bounds,
             "noun": "thresholds" if program.bounds else "residuals",
             "tapes": [self._tape_table(t) for t in self.tapes],
@@ -372,7 +380,7 @@ class Code:
                 (f"{real} back_{k}_{j};", f"{one.seconds:g} s in samples")
                 for j, one in enumerate(line.past)
             ]
-        parts = (
+        kinds = (
             ("encoders", "e", "The encoders, each with the residuals that read it.", encoders),
             ("past", "p", "The last samples of signals that are needed late.", past),
         )
@@ -384,11 +392,11 @@ class Code:
             "memory": declared.members(states),
             "parts": [
                 {"name": name, "member": member, "doc": doc, "lines": declared.members(pairs)}
-                for name, member, doc, pairs in parts
+                for name, member, doc, pairs in kinds
                 if pairs
             ],
             "signals": declared.struct(signals(program, spelling)),
-            "taken": f"{self.stem}_signals" if spelling.lines else f"{self.base}_samples",
+            "taken": self._taken,
             "constants": [] if found is None else self._constants(found),
         }
 
@@ -425,18 +433,33 @@ class Code:
             used -= {"time_unit"}
         pairs += [(f"real {name}", name) for name in _OPTIONS if name in used]
         head = f"static void {self.own}compute_coefficients({{0}})"
-        body = lines(program.configure, spelling, self._configure, 4, self._tape)
+        written = self._computed([declared for declared, _ in pairs])
         return {
             "coefficient_head": listing.statement(
                 head, ", ".join(a for a, _ in pairs), self.target, 0
             ),
             "coefficient_values": ", ".join(v for _, v in pairs),
-            "configure": body or ["    (void)c;"],
+            "coefficient_pieces": written.functions,
+            "configure": written.body or ["    (void)c;"],
             "coefficients_are_finite": self._finite("return", coefs, "c"),
             "settle": [
                 line for r in program.residuals if not r.unavailable for line in self._settle(r)
             ],
         }
+
+    def _computed(self, arguments: Sequence[str]) -> Written:
+        """What computes the coefficients from these arguments, in parts if it is long."""
+        named = {declared.split("*")[-1].split()[-1]: declared for declared in arguments}
+        name, program = f"{self.own}compute", self.program
+        statements = self._statements(program.configure, self._configure, tape=self._tape)
+        written = self._functions(named, noun="coefficients").procedure(name, *statements)
+        if not written.functions:
+            return written
+        rows = grouped(program.configure)
+        own, write = self._statements([s for _, s in rows], self._configure, tape=self._tape)
+        keyed = [unit._replace(key=key) for unit, (key, _) in zip(own, rows, strict=True)]
+        functions = self._functions(named, noun="coefficients")
+        return functions.procedure(name, keyed, write, cut=parts)
 
     def _settle(self, info: ResidualInfo) -> list[str]:
         prefix = f"c->settle[{self._number(info.name)}] ="
@@ -529,8 +552,8 @@ class Code:
 
     # ---------------------------------------------------------------- exact and step
 
-    def exact(self) -> list[str]:
-        """The body of exact."""
+    def exact(self) -> dict[str, object]:
+        """The holes of exact: its body, and the functions that it calls."""
         speller = CodeSpeller(self.target.dialect, self.spelling.exact, self.spelling.tables)
         spaces = {ref.space for ref in reads(self.program.exact)}
         head: list[str] = []
@@ -544,13 +567,23 @@ class Code:
         else:
             unused.append("    (void)derivatives;")
         head.append("    real *r = residuals;")
-        body = lines(self.program.exact, self.spelling, speller, 4)
+        refused: list[str] = []
         for info in self.program.residuals:
             if info.unwritten:
                 why = listing.words(listing.place(info.origin), f"{info.name}: {info.unwritten}")
-                body += ([""] if body else []) + listing.comment(why, self.target, 4)
-                body.append(f"    r[{self._number(info.name)}] = (real)NAN;")
-        return [*head, *([""] if unused else []), *unused, "", *body]
+                refused += ["", *listing.comment(why, self.target, 4)]
+                refused.append(f"    r[{self._number(info.name)}] = (real)NAN;")
+        head += [*([""] if unused else []), *unused]
+        arguments = {
+            "c": f"const {self.stem}_coefficients *c",
+            "d": f"const {self.base}_derivatives *d",
+            "r": "real *r",
+        }
+        statements = self._statements(self.program.exact, speller)
+        around = len(head) + 1 + len(refused)
+        written = self._functions(arguments).procedure("exact", *statements, around)
+        body = ["", *written.body] if written.body else []
+        return {"exact": [*head, *body, *refused], "exact_pieces": written.functions}
 
     def _recall(self) -> list[str]:
         """How step makes its signals from a sample."""
@@ -579,10 +612,12 @@ class Code:
         head = []
         if block.run.asks or counts:
             head.append(f"const bool first = x->youngest == 0u && x->age[{number}] == 0u;")
-        if spaces & {"increment", "total"}:
-            head.append(f"const {self.stem}_encoders *e = &x->e;")
         run = [f"    count_on(&x->e.{memory}, s->{member}, first);" for memory, member in counts]
         run += [""] if run else []
+        around = len(head) + bool(spaces & {"increment", "total"})
+        written = self._run(block, speller, about, around + bool(around) + len(run))
+        if "e" in written.uses:
+            head.append(f"const {self.stem}_encoders *e = &x->e;")
         unused = [name for name, is_used in (
             ("c", "coef" in spaces), ("x", "state" in spaces or bool(head) or bool(counts)),
             ("s", bool(block.knowns)),
@@ -595,8 +630,66 @@ class Code:
             "number": number,
             "comment": listing.comment("\n".join([title, *block_text(infos)]), target, 0),
             "head": head,
-            "run": [*run, *procedure(block.run, spelling, speller, 4, about)],
+            "pieces": written.functions,
+            "run": [*run, *written.body],
         }
+
+    def _run(self, block: Block, speller: CodeSpeller, about: About, around: int) -> Written:
+        """What a block does with a sample, in a function with so many lines around that."""
+        arguments = {
+            "c": f"const {self.stem}_coefficients *c",
+            "x": f"{self.stem}_memory *x",
+            "s": f"const {self._taken} *s",
+            "r": "real *r",
+            "first": "bool first",
+        }
+        encoders = {"e": f"    const {self.stem}_encoders *e = &x->e;"}
+        functions = self._functions(arguments, encoders)
+        name, run = f"{self._verb}_{block.name}", block.run
+        if not run.apart:
+            statements = self._statements(run.statements, speller, about)
+            return functions.procedure(name, *statements, around)
+        sides = tuple(
+            (f"{name}_{way}", *self._statements(statements, speller, about))
+            for way, statements in (("first", run.apart), ("next", run.statements))
+        )
+        if_, else_, end = self.target.statements.branch
+        return functions.choice((if_.format("first"), else_, end), sides, around)
+
+    @property
+    def _verb(self) -> str:
+        """What the functions of blocks begin with."""
+        return "bound" if self.own else "run"
+
+    @property
+    def _taken(self) -> str:
+        """The type of what a block takes: samples, or signals with what they were."""
+        return f"{self.stem}_signals" if self.spelling.lines else f"{self.base}_samples"
+
+    def _functions(
+        self,
+        arguments: Mapping[str, str],
+        heads: Mapping[str, str] | None = None,
+        noun: str = "a part",
+    ) -> Functions:
+        taken = {f"{self._verb}_{block.name}" for block in self.spelling.blocks}
+        taken |= {*self.spelling.tables.values(), f"{self.own}compute_coefficients"}
+        return Functions(self.target, "real", arguments, taken, heads, noun)
+
+    def _statements(
+        self,
+        statements: Sequence[Statement | Start],
+        speller: CodeSpeller,
+        about: About = ANYTHING,
+        tape: Callable[[PolynomialTape, CodeSpeller], list[str]] | None = None,
+    ) -> tuple[list[Unit], Callable[[Sequence[int], int], list[str]]]:
+        """Statements as what functions are made of, and what writes some of them."""
+
+        def write(numbers: Sequence[int], indent: int) -> list[str]:
+            own = [statements[k] for k in numbers]
+            return lines(own, self.spelling, speller, indent, tape, about)
+
+        return units(statements, speller, about.prefix), write
 
     def _counting(self) -> dict[str, object]:
         """The holes of count.c.j2: what is computed, what goes with what, what has to be finite."""

@@ -9,6 +9,7 @@ from typing import assert_never
 
 from bondgraph.algebra import cubic_tanh
 from bondgraph.backends import listing
+from bondgraph.backends.c_functions import Functions, Unit, Written
 from bondgraph.backends.facts import ABI, about_known, about_residual, facts
 from bondgraph.backends.identifiers import spellings
 from bondgraph.backends.spelling import Spelling
@@ -30,6 +31,7 @@ from bondgraph.ir.fixed_program import (
     Window,
 )
 from bondgraph.ir.program import Field, Known, Ref
+from bondgraph.notation.walk import references
 from bondgraph.text.numerals import joined
 
 #: What the templates call their functions, beside the names of `target.toml`.
@@ -292,6 +294,10 @@ class _Code:
         infos = [r for r in self.program.residuals if r.name in block.residuals]
         text = [listing.words(listing.place(r.origin), r.text or r.name) for r in infos]
         whose = joined(block.residuals)
+        first, step = (
+            self._written(block, name, procedure)
+            for name, procedure in (("first", block.first), ("run", block.step))
+        )
         return {
             "name": block.name,
             "number": number,
@@ -299,11 +305,12 @@ class _Code:
             "comment_first": listing.comment(
                 f"{whose} on a first sample, as if all had always been so.", self.target, 0
             ),
-            "step": self._lines(block, block.step),
-            "first": self._lines(block, block.first),
+            "step": step.body,
+            "first": first.body,
+            "pieces": [*first.functions, *step.functions],
         }
 
-    def _lines(self, block: FixedBlock, procedure: Sequence[Explained]) -> list[str]:
+    def _written(self, block: FixedBlock, verb: str, procedure: Sequence[Explained]) -> Written:
         locals_ = dict.fromkeys(
             e.instruction.target.name for e in procedure if e.instruction.target.space == "local"
         )
@@ -317,20 +324,53 @@ class _Code:
             taken = self.target.reserved | _NAMES | set(free.values())
             free[f"turned {name}"] = spellings([memory], taken)[memory]
         spell = partial(self._spelled, free)
-        found = self._turned(block, free, procedure is block.first)
-        last = ""
+        head = self._turned(block, free, procedure is block.first)
         about = block.residuals[0] + ": "
         said = {r.text for r in self.program.residuals}  # above the function
-        for explained in procedure:
-            comment = explained.comment.removeprefix(about)
-            if comment and comment != last and explained.comment not in said:
-                found += [""] * bool(found) + listing.comment(comment, self.target, 4)
-            last = comment or last
-            found += self._statement(explained.instruction, spell)
-        names = " ".join(found)
-        unused = [n for n, used in (("c", "c->"), ("x", "x->"), ("s", "s->")) if used not in names]
-        head = [f"    (void){name};" for name in unused]
-        return [*head, *([""] if head else []), *found]
+
+        def write(numbers: Sequence[int], indent: int) -> list[str]:
+            found: list[str] = []
+            last = ""
+            for explained in (procedure[k] for k in numbers):
+                comment = explained.comment.removeprefix(about)
+                if comment and comment != last and explained.comment not in said:
+                    found += [""] * bool(found) + listing.comment(comment, self.target, indent)
+                last = comment or last
+                found += self._statement(explained.instruction, spell, indent)
+            return found
+
+        units = [self._unit(e, spell, about) for e in procedure]
+        text = " ".join(head)
+        used = {use for unit in units for use in unit.uses}
+        unused = [n for n in ("c", "x", "s") if n not in used and f"{n}->" not in text]
+        head = [*(f"    (void){n};" for n in unused), *[""] * bool(unused and head), *head]
+        arguments = {
+            "c": f"const {self.about.stem}_coefficients *c",
+            "x": f"{self.about.stem}_memory *x",
+            "s": f"const {self.about.stem}_samples *s",
+            "r": "int32_t *r",
+        }
+        names = {f"{v}_{b.name}" for v in ("first", "run") for b in self.fixed.blocks}
+        functions = Functions(self.target, "int32_t", arguments, _NAMES | names)
+        around = len(head) + bool(head)
+        written = functions.procedure(f"{verb}_{block.name}", units, write, around)
+        between = [""] if head and written.body else []
+        return written._replace(body=[*head, *between, *written.body])
+
+    def _unit(self, explained: Explained, spell: partial[str], prefix: str) -> Unit:
+        """What an instruction needs of the function that it stands in."""
+        instruction = explained.instruction
+        text = " ".join(self._statement(instruction, spell))
+        own = instruction.target
+        read = references(instruction)
+        marks = {"c": "c->", "x": "x->", "s": "s->", "r": "r["}
+        return Unit(
+            (spell(own),) if own.space == "local" else (),
+            frozenset(spell(r) for r in read if r.space in ("local", "increment") and r != own),
+            frozenset(name for name, mark in marks.items() if mark in text),
+            "",
+            explained.comment.removeprefix(prefix),
+        )
 
     def _spelled(self, free: dict[str, str], ref: Ref) -> str:
         if ref.space == "increment":
@@ -351,11 +391,13 @@ class _Code:
                 found.append(f"    const int32_t {free[f'turned {name}']} = {value};")
         return found
 
-    def _statement(self, instruction: Instruction, spell: partial[str]) -> list[str]:
+    def _statement(
+        self, instruction: Instruction, spell: partial[str], indent: int = 4
+    ) -> list[str]:
         target = instruction.target
         left = spell(target)
         prefix = f"const int32_t {left} = {{0}};" if target.space == "local" else f"{left} = {{0}};"
-        return listing.statement(prefix, self._value(instruction, spell), self.target, 4)
+        return listing.statement(prefix, self._value(instruction, spell), self.target, indent)
 
     def _value(self, instruction: Instruction, spell: partial[str]) -> str:
         match instruction:

@@ -42,7 +42,7 @@ class Procedure(NamedTuple):
     def asks(self) -> bool:
         """Whether it has to know if this is the first sample."""
         return bool(self.apart) or any(
-            isinstance(s, Start) or _asks(s) for s in self.statements
+            isinstance(s, Start) or asks(s) for s in self.statements
         )
 
 
@@ -90,7 +90,7 @@ def _joined(statements: Sequence[Assignment | Start]) -> tuple[Assignment | Star
     return tuple(found)
 
 
-def _asks(statement: Assignment) -> bool:
+def asks(statement: Assignment) -> bool:
     """Whether a statement has the condition `First` in it."""
     stack: list[object] = [s.value for s in flat([statement])]
     while stack:

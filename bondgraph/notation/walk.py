@@ -56,8 +56,8 @@ def nodes(values: Iterable[Expression | Condition]) -> Iterator[Expression | Con
         stack.extend(operands(node)[::-1])
 
 
-def references(value: Expression | Condition) -> list[Ref]:
-    """The names that an expression reads; a mode is read as a known signal."""
+def references(value: tuple[object, ...]) -> list[Ref]:
+    """The names in an expression, or in an instruction; a mode is read as a known signal."""
     found: list[Ref] = []
     stack: list[object] = [value]
     while stack:

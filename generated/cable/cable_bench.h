@@ -197,6 +197,7 @@ typedef struct cable_bench_diagnosis {
     int16_t fault_class; /* the one that is left, or CABLE_BENCH_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     cable_bench_real above[CABLE_BENCH_RESIDUALS];
     cable_bench_real below[CABLE_BENCH_RESIDUALS];
     cable_bench_real louder[CABLE_BENCH_RESIDUALS];

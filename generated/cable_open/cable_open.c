@@ -1,6 +1,7 @@
 /* cable_open.c: the residuals of CableOpen; generated, see the header. */
 #include "cable_open.h"
 
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -9,6 +10,11 @@
 typedef cable_open_real real;
 
 #define REAL(x) CABLE_OPEN_CONSTANT(x)
+#if defined CABLE_OPEN_FLOAT && !defined CABLE_OPEN_REAL
+#define MATH(name) name##f
+#else
+#define MATH(name) name
+#endif
 
 /* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
 static bool finite_number(real value)
@@ -291,12 +297,27 @@ static void forget_sums(cable_open_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined CABLE_OPEN_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const cable_open_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     cable_open_diagnosis *d, const cable_open_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -388,6 +409,7 @@ void cable_open_clear(cable_open_diagnosis *diagnosis)
     diagnosis->fault_class = CABLE_OPEN_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void cable_open_diagnosis_reset(cable_open_diagnosis *diagnosis)
@@ -405,6 +427,40 @@ void cable_open_diagnosis_reset(cable_open_diagnosis *diagnosis)
     cable_open_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const cable_open_limit *limits, const real *bounds, const cable_open_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < CABLE_OPEN_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < CABLE_OPEN_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(cable_open_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == CABLE_OPEN_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = CABLE_OPEN_BLIND;
+    }
+}
+
 bool cable_open_diagnose(
     cable_open_diagnosis *diagnosis,
     const cable_open_limit *limits,
@@ -419,6 +475,10 @@ bool cable_open_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -430,13 +490,9 @@ bool cable_open_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == CABLE_OPEN_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = CABLE_OPEN_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == CABLE_OPEN_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == CABLE_OPEN_ALARM;
     }
     if (fresh) {

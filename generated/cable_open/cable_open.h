@@ -197,6 +197,7 @@ typedef struct cable_open_diagnosis {
     int16_t fault_class; /* the one that is left, or CABLE_OPEN_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     cable_open_real above[CABLE_OPEN_RESIDUALS];
     cable_open_real below[CABLE_OPEN_RESIDUALS];
     cable_open_real louder[CABLE_OPEN_RESIDUALS];

@@ -1,6 +1,7 @@
 /* chassis_bench.c: the residuals of ChassisBench; generated, see the header. */
 #include "chassis_bench.h"
 
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -9,6 +10,11 @@
 typedef chassis_bench_real real;
 
 #define REAL(x) CHASSIS_BENCH_CONSTANT(x)
+#if defined CHASSIS_BENCH_FLOAT && !defined CHASSIS_BENCH_REAL
+#define MATH(name) name##f
+#else
+#define MATH(name) name
+#endif
 
 /* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
 static bool finite_number(real value)
@@ -391,12 +397,27 @@ static void forget_sums(chassis_bench_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined CHASSIS_BENCH_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const chassis_bench_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     chassis_bench_diagnosis *d, const chassis_bench_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -488,6 +509,7 @@ void chassis_bench_clear(chassis_bench_diagnosis *diagnosis)
     diagnosis->fault_class = CHASSIS_BENCH_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void chassis_bench_diagnosis_reset(chassis_bench_diagnosis *diagnosis)
@@ -505,6 +527,40 @@ void chassis_bench_diagnosis_reset(chassis_bench_diagnosis *diagnosis)
     chassis_bench_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const chassis_bench_limit *limits, const real *bounds, const chassis_bench_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < CHASSIS_BENCH_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < CHASSIS_BENCH_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(chassis_bench_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == CHASSIS_BENCH_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = CHASSIS_BENCH_BLIND;
+    }
+}
+
 bool chassis_bench_diagnose(
     chassis_bench_diagnosis *diagnosis,
     const chassis_bench_limit *limits,
@@ -519,6 +575,10 @@ bool chassis_bench_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -530,13 +590,9 @@ bool chassis_bench_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == CHASSIS_BENCH_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = CHASSIS_BENCH_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == CHASSIS_BENCH_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == CHASSIS_BENCH_ALARM;
     }
     if (fresh) {

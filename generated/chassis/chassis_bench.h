@@ -213,6 +213,7 @@ typedef struct chassis_bench_diagnosis {
     int16_t fault_class; /* the one that is left, or CHASSIS_BENCH_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     chassis_bench_real above[CHASSIS_BENCH_RESIDUALS];
     chassis_bench_real below[CHASSIS_BENCH_RESIDUALS];
     chassis_bench_real louder[CHASSIS_BENCH_RESIDUALS];

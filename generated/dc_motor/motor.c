@@ -4,6 +4,7 @@
 #ifndef MOTOR_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -655,12 +656,27 @@ static void forget_sums(motor_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined MOTOR_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const motor_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     motor_diagnosis *d, const motor_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -752,6 +768,7 @@ void motor_clear(motor_diagnosis *diagnosis)
     diagnosis->fault_class = MOTOR_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void motor_diagnosis_reset(motor_diagnosis *diagnosis)
@@ -769,6 +786,40 @@ void motor_diagnosis_reset(motor_diagnosis *diagnosis)
     motor_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const motor_limit *limits, const real *bounds, const motor_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(motor_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == MOTOR_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = MOTOR_BLIND;
+    }
+}
+
 bool motor_diagnose(
     motor_diagnosis *diagnosis,
     const motor_limit *limits,
@@ -783,6 +834,10 @@ bool motor_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -794,13 +849,9 @@ bool motor_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == MOTOR_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = MOTOR_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == MOTOR_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == MOTOR_ALARM;
     }
     if (fresh) {

@@ -280,6 +280,7 @@ typedef struct motor_diagnosis {
     int16_t fault_class; /* the one that is left, or MOTOR_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     motor_real above[MOTOR_RESIDUALS];
     motor_real below[MOTOR_RESIDUALS];
     motor_real louder[MOTOR_RESIDUALS];

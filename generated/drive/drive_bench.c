@@ -4,6 +4,7 @@
 #ifndef DRIVE_BENCH_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -136,22 +137,9 @@ const drive_bench_coefficients drive_bench_nominal_coefficients = {
     562u                           /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void compute_coefficients(drive_bench_coefficients *c, const drive_bench_parameters *p,
-        real sample_time, real bandwidth)
+/* r1: coefficients */
+static void compute_r1(drive_bench_coefficients *c, const drive_bench_parameters *p, real w)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
     /* khepera.bg:17: m.el.L*m.me.fe/m.el.k */
     const real L_times_fe_over_k = p->m__el__L * p->m__me__fe / p->m__el__k;
 
@@ -164,10 +152,7 @@ static void compute_coefficients(drive_bench_coefficients *c, const drive_bench_
     /* m.el.Re*m.wh.Js/(m.ge.N*m.el.k) */
     const real product_2 = p->m__el__Re * p->m__wh__Js / p->m__ge__N / p->m__el__k;
 
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: r1: factor of m.me.we: m.el.k + m.el.Re*m.me.fe/m.el.k */
+    /* r1: factor of m.me.we: m.el.k + m.el.Re*m.me.fe/m.el.k */
     c->r1_m__me__we = p->m__el__k + p->m__el__Re * p->m__me__fe / p->m__el__k;
 
     /* r1: factor of m.wh.ws: m.el.Re*m.wh.fs/(m.ge.N*m.el.k) */
@@ -190,6 +175,13 @@ static void compute_coefficients(drive_bench_coefficients *c, const drive_bench_
 
     /* r1: factor of Fx' */
     c->r1_w1_Fx = p->m__el__L * p->m__wh__R * w / p->m__ge__N / p->m__el__k;
+}
+
+/* filter: coefficients */
+static void compute_filter(drive_bench_coefficients *c, real pole, real turn)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
 
     /* filter: 2 * (w*sample_time)^2/12 */
     c->bend2 = turn_2 / REAL(6.0);
@@ -202,15 +194,13 @@ static void compute_coefficients(drive_bench_coefficients *c, const drive_bench_
 
     /* filter: weight of a sample, new and a sample later */
     c->b = REAL(0.5) * (REAL(1.0) - pole);
+}
 
+/* r2: coefficients */
+static void compute_r2(drive_bench_coefficients *c, const drive_bench_parameters *p, real w)
+{
     /* khepera.bg:41: r2: factor of m.wh.ws: m.ge.N */
     c->r2_m__wh__ws = p->m__ge__N;
-
-    /* (1/96)*sample_time/m.tau0 */
-    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->m__tau0;
-
-    /* (1/96)*m.ge.N*sample_time/m.tau0 */
-    c->scaled_N_times_sample_time_over_tau0 = p->m__ge__N * sample_time / REAL(96.0) / p->m__tau0;
 
     /* r2: factor of m.wh.ws'' */
     c->r2_w2_m__wh__ws = p->m__wh__Js * w * w / p->m__ge__N / p->m__me__K;
@@ -220,6 +210,33 @@ static void compute_coefficients(drive_bench_coefficients *c, const drive_bench_
 
     /* r2: factor of D(tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m.tau0))) */
     c->r2_w1_tanh = p->m__tau0 * p->m__A * w;
+}
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(drive_bench_coefficients *c, const drive_bench_parameters *p,
+        real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* khepera.bg:41: (1/96)*sample_time/m.tau0 */
+    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->m__tau0;
+
+    /* (1/96)*m.ge.N*sample_time/m.tau0 */
+    c->scaled_N_times_sample_time_over_tau0 = p->m__ge__N * sample_time / REAL(96.0) / p->m__tau0;
+
+    compute_r1(c, p, w);
+    compute_filter(c, pole, turn);
+    compute_r2(c, p, w);
 }
 
 static bool coefficients_are_finite(const drive_bench_coefficients *c)
@@ -319,6 +336,33 @@ static void run_r1(
     r[DRIVE_BENCH_R1] = y1 - e1;
 }
 
+/* tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m.tau0)) */
+static real run_r2_tanh(const drive_bench_coefficients *c, drive_bench_memory *x,
+        const drive_bench_samples *s, bool first)
+{
+    /* sample_time/24 times m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0), what is integrated */
+    const real rate = c->scaled_sample_time_over_tau0 * s->m__me__we
+        - c->scaled_N_times_sample_time_over_tau0 * s->m__wh__ws;
+
+    if (first) {
+        /* r2: the integral is 0 at the start */
+        x->r2_q = -REAL(12.0) * rate;
+        x->r2_rate1 = rate;
+        x->r2_rate2 = rate;
+    }
+
+    /* its integral since the start, by the rule of Adams */
+    const real integral = x->r2_q + REAL(9.0) * rate + REAL(4.0) * x->r2_rate1 - x->r2_rate2;
+    x->r2_q = x->r2_q + REAL(24.0) * rate;
+    x->r2_rate2 = x->r2_rate1;
+    x->r2_rate1 = rate;
+
+    /* tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m.tau0)) */
+    const real tanh_ = near_tanh(integral);
+
+    return tanh_;
+}
+
 /* r2 on one sample.
  * khepera.bg:41: r2 = m.me.we - m.ge.N*m.wh.ws - D(m.wh.fs*m.wh.ws + m.wh.R*Fx +
  * m.wh.Js*D(m.wh.ws) - m.tau0*m.A*m.ge.N*m.me.K*tanh((Int(m.me.we) -
@@ -339,25 +383,7 @@ static void run_r2(
     const real a = first ? -c->b : c->a;
     const real b = first ? REAL(1.0) : c->b;
 
-    /* sample_time/24 times m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0), what is integrated */
-    const real rate = c->scaled_sample_time_over_tau0 * s->m__me__we
-        - c->scaled_N_times_sample_time_over_tau0 * s->m__wh__ws;
-
-    if (first) {
-        /* r2: the integral is 0 at the start */
-        x->r2_q = -REAL(12.0) * rate;
-        x->r2_rate1 = rate;
-        x->r2_rate2 = rate;
-    }
-
-    /* its integral since the start, by the rule of Adams */
-    const real integral = x->r2_q + REAL(9.0) * rate + REAL(4.0) * x->r2_rate1 - x->r2_rate2;
-    x->r2_q = x->r2_q + REAL(24.0) * rate;
-    x->r2_rate2 = x->r2_rate1;
-    x->r2_rate1 = rate;
-
-    /* tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m.tau0)) */
-    const real tanh_ = near_tanh(integral);
+    const real tanh_ = run_r2_tanh(c, x, s, first);
 
     /* terms of order 0 */
     const real g0 = s->m__me__we - c->r2_m__wh__ws * s->m__wh__ws;
@@ -526,56 +552,11 @@ const drive_bench_threshold_coefficients drive_bench_threshold_nominal_coefficie
     562u                           /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void bound_compute_coefficients(drive_bench_threshold_coefficients *c,
-        const drive_bench_parameters *p, real sample_time, real bandwidth)
+/* r1_w1: coefficients */
+static void bound_compute_r1_w1(drive_bench_threshold_coefficients *c, real Re_times_fe_over_k,
+        real product, real product_2, real product_6, real product_7)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
-    /* khepera.bg:17: m.el.Re*m.me.fe/m.el.k */
-    const real Re_times_fe_over_k = p->m__el__Re * p->m__me__fe / p->m__el__k;
-
-    /* m.el.Re*m.wh.fs/(m.ge.N*m.el.k) */
-    const real product = p->m__el__Re * p->m__wh__fs / p->m__ge__N / p->m__el__k;
-
-    /* m.el.Re*m.wh.R/(m.ge.N*m.el.k) */
-    const real product_2 = p->m__el__Re * p->m__wh__R / p->m__ge__N / p->m__el__k;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: m.el.L*m.me.Je*w^2/m.el.k */
-    const real product_3 = p->m__el__L * p->m__me__Je * w * w / p->m__el__k;
-
-    /* m.el.L*m.wh.Js*w^2/(m.ge.N*m.el.k) */
-    const real product_4 = p->m__el__L * p->m__wh__Js * w * w / p->m__ge__N / p->m__el__k;
-
-    /* m.el.L*m.wh.R*w/(m.ge.N*m.el.k) */
-    const real product_5 = p->m__el__L * p->m__wh__R * w / p->m__ge__N / p->m__el__k;
-
-    /* m.el.Re*m.wh.Js*w/(m.ge.N*m.el.k) */
-    const real product_6 = p->m__el__Re * p->m__wh__Js * w / p->m__ge__N / p->m__el__k;
-
-    /* m.el.Re*m.me.Je*w/m.el.k */
-    const real product_7 = p->m__el__Re * p->m__me__Je * w / p->m__el__k;
-
-    /* m.el.L*m.me.fe*w/m.el.k */
-    const real product_8 = p->m__el__L * p->m__me__fe * w / p->m__el__k;
-
-    /* m.el.L*m.wh.fs*w/(m.ge.N*m.el.k) */
-    const real product_9 = p->m__el__L * p->m__wh__fs * w / p->m__ge__N / p->m__el__k;
-
-    /* r1_w1: factor of Fx */
+    /* khepera.bg:17: r1_w1: factor of Fx */
     c->r1_w1_Fx = product_2 / REAL(20.0);
 
     /* r1_w1: factor of m.wh.ws */
@@ -589,16 +570,13 @@ static void bound_compute_coefficients(drive_bench_threshold_coefficients *c,
 
     /* r1_w1: factor of m.me.we' */
     c->r1_w1_w1_m__me__we = product_7 / REAL(20.0);
+}
 
-    /* filter: 1 * (w*sample_time)^2/12 */
-    c->bend1 = turn_2 / REAL(12.0);
-
-    /* filter: what is left of a memory a sample later */
-    c->a = pole;
-
-    /* filter: weight of a sample, new and a sample later */
-    c->b = REAL(0.5) * (REAL(1.0) - pole);
-
+/* r1_w2: coefficients */
+static void bound_compute_r1_w2(drive_bench_threshold_coefficients *c,
+        const drive_bench_parameters *p, real w, real product, real product_2, real product_3,
+        real product_4, real product_5)
+{
     /* khepera.bg:17: r1_w2: factor of m.me.we */
     c->r1_w2_m__me__we = p->m__el__k * (p->m__el__Re * p->m__me__fe / p->m__el__k / p->m__el__k
             - REAL(1.0)) / REAL(50.0);
@@ -627,10 +605,12 @@ static void bound_compute_coefficients(drive_bench_threshold_coefficients *c,
 
     /* r1_w2: factor of m.wh.ws'' */
     c->r1_w2_w2_m__wh__ws = product_4 / REAL(50.0);
+}
 
-    /* filter: 2 * (w*sample_time)^2/12 */
-    c->bend2 = turn_2 / REAL(6.0);
-
+/* r1_w3 to r1_w4: coefficients */
+static void bound_compute_r1_w3_to_r1_w4(drive_bench_threshold_coefficients *c,
+        real Re_times_fe_over_k, real product, real product_8, real product_9)
+{
     /* khepera.bg:17: r1_w3: factor of m.me.we */
     c->r1_w3_m__me__we = Re_times_fe_over_k / REAL(10.0);
 
@@ -642,8 +622,13 @@ static void bound_compute_coefficients(drive_bench_threshold_coefficients *c,
 
     /* r1_w4: factor of m.wh.ws' */
     c->r1_w4_w1_m__wh__ws = product_9 / REAL(10.0);
+}
 
-    /* r1_w5: factor of m.me.we */
+/* r1_w5: coefficients */
+static void bound_compute_r1_w5(drive_bench_threshold_coefficients *c, real Re_times_fe_over_k,
+        real product, real product_2, real product_6, real product_7)
+{
+    /* khepera.bg:17: r1_w5: factor of m.me.we */
     c->r1_w5_m__me__we = Re_times_fe_over_k / REAL(730.0);
 
     /* r1_w5: factor of m.me.we' */
@@ -657,14 +642,14 @@ static void bound_compute_coefficients(drive_bench_threshold_coefficients *c,
 
     /* r1_w5: factor of Fx */
     c->r1_w5_Fx = product_2 / REAL(730.0);
+}
 
-    /* r1_w6: factor of m.me.we */
-    c->r1_w6_m__me__we = Re_times_fe_over_k / REAL(146.0);
-
-    /* r1_w7: factor of m.wh.ws */
-    c->r1_w7_m__wh__ws = product / REAL(146.0);
-
-    /* r1_w8: factor of m.me.we */
+/* r1_w8: coefficients */
+static void bound_compute_r1_w8(drive_bench_threshold_coefficients *c,
+        const drive_bench_parameters *p, real w, real Re_times_fe_over_k, real product,
+        real product_2, real product_3, real product_4, real product_5)
+{
+    /* khepera.bg:17: r1_w8: factor of m.me.we */
     c->r1_w8_m__me__we = Re_times_fe_over_k / REAL(1825.0);
 
     /* r1_w8: factor of m.me.we' */
@@ -695,8 +680,13 @@ static void bound_compute_coefficients(drive_bench_threshold_coefficients *c,
 
     /* r1_w8: factor of Fx' */
     c->r1_w8_w1_Fx = product_5 / REAL(1825.0);
+}
 
-    /* r1_w9: factor of m.me.we */
+/* r1_w9 to r1_w10: coefficients */
+static void bound_compute_r1_w9_to_r1_w10(drive_bench_threshold_coefficients *c,
+        real Re_times_fe_over_k, real product, real product_8, real product_9)
+{
+    /* khepera.bg:17: r1_w9: factor of m.me.we */
     c->r1_w9_m__me__we = Re_times_fe_over_k / REAL(365.0);
 
     /* r1_w9: factor of m.me.we' */
@@ -707,6 +697,95 @@ static void bound_compute_coefficients(drive_bench_threshold_coefficients *c,
 
     /* r1_w10: factor of m.wh.ws' */
     c->r1_w10_w1_m__wh__ws = product_9 / REAL(365.0);
+}
+
+/* r1: coefficients */
+static void bound_compute_r1(drive_bench_threshold_coefficients *c, const drive_bench_parameters *p,
+        real sample_time, real turn)
+{
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* khepera.bg:17: m.el.Re*m.me.fe/m.el.k */
+    const real Re_times_fe_over_k = p->m__el__Re * p->m__me__fe / p->m__el__k;
+
+    /* m.el.Re*m.wh.fs/(m.ge.N*m.el.k) */
+    const real product = p->m__el__Re * p->m__wh__fs / p->m__ge__N / p->m__el__k;
+
+    /* m.el.Re*m.wh.R/(m.ge.N*m.el.k) */
+    const real product_2 = p->m__el__Re * p->m__wh__R / p->m__ge__N / p->m__el__k;
+
+    /* m.el.L*m.me.Je*w^2/m.el.k */
+    const real product_3 = p->m__el__L * p->m__me__Je * w * w / p->m__el__k;
+
+    /* m.el.L*m.wh.Js*w^2/(m.ge.N*m.el.k) */
+    const real product_4 = p->m__el__L * p->m__wh__Js * w * w / p->m__ge__N / p->m__el__k;
+
+    /* m.el.L*m.wh.R*w/(m.ge.N*m.el.k) */
+    const real product_5 = p->m__el__L * p->m__wh__R * w / p->m__ge__N / p->m__el__k;
+
+    /* m.el.Re*m.wh.Js*w/(m.ge.N*m.el.k) */
+    const real product_6 = p->m__el__Re * p->m__wh__Js * w / p->m__ge__N / p->m__el__k;
+
+    /* m.el.Re*m.me.Je*w/m.el.k */
+    const real product_7 = p->m__el__Re * p->m__me__Je * w / p->m__el__k;
+
+    /* m.el.L*m.me.fe*w/m.el.k */
+    const real product_8 = p->m__el__L * p->m__me__fe * w / p->m__el__k;
+
+    /* m.el.L*m.wh.fs*w/(m.ge.N*m.el.k) */
+    const real product_9 = p->m__el__L * p->m__wh__fs * w / p->m__ge__N / p->m__el__k;
+
+    bound_compute_r1_w1(c, Re_times_fe_over_k, product, product_2, product_6, product_7);
+    bound_compute_r1_w2(c, p, w, product, product_2, product_3, product_4, product_5);
+    bound_compute_r1_w3_to_r1_w4(c, Re_times_fe_over_k, product, product_8, product_9);
+    bound_compute_r1_w5(c, Re_times_fe_over_k, product, product_2, product_6, product_7);
+
+    /* khepera.bg:17: r1_w6: factor of m.me.we */
+    c->r1_w6_m__me__we = Re_times_fe_over_k / REAL(146.0);
+
+    /* r1_w7: factor of m.wh.ws */
+    c->r1_w7_m__wh__ws = product / REAL(146.0);
+
+    bound_compute_r1_w8(c, p, w, Re_times_fe_over_k, product, product_2, product_3, product_4,
+            product_5);
+    bound_compute_r1_w9_to_r1_w10(c, Re_times_fe_over_k, product, product_8, product_9);
+}
+
+/* filter: coefficients */
+static void bound_compute_filter(drive_bench_threshold_coefficients *c, real pole, real turn)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn_2 / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = turn_2 / REAL(6.0);
+}
+
+/* The coefficients, from the parameters. */
+static void bound_compute_coefficients(drive_bench_threshold_coefficients *c,
+        const drive_bench_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    bound_compute_r1(c, p, sample_time, turn);
+    bound_compute_filter(c, pole, turn);
 }
 
 static bool bound_coefficients_are_finite(const drive_bench_threshold_coefficients *c)
@@ -751,24 +830,10 @@ drive_bench_status drive_bench_threshold_configure(
     return DRIVE_BENCH_OK;
 }
 
-/* r1 on one sample.
- * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
-static void bound_r1(
-    const drive_bench_threshold_coefficients *c, drive_bench_threshold_memory *x, const drive_bench_samples *s, real *r)
+/* what the tolerance of m.el.Re can do */
+static real bound_r1_w1(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, real w1_a, real w1_b)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r1_w1_s3 = REAL(0.0);
-        x->r1_w1_s2 = REAL(0.0);
-        x->r1_w1_s1 = REAL(0.0);
-    }
-
-    /* r1_w1: a stage of the filter; on the first sample it is at rest */
-    const real w1_a = first ? -c->b : c->a;
-    const real w1_b = first ? REAL(1.0) : c->b;
-
     /* r1_w1: terms of order 0 */
     const real w1_g0 = c->r1_w1_Fx * s->Fx + c->r1_w1_m__wh__ws * s->m__wh__ws
         + c->r1_w1_m__me__we * s->m__me__we;
@@ -800,6 +865,14 @@ static void bound_r1(
     /* what the tolerance of m.el.Re can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* what the tolerance of m.el.k can do */
+static real bound_r1_w2(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w2_s3 = REAL(0.0);
@@ -848,6 +921,14 @@ static void bound_r1(
     /* what the tolerance of m.el.k can do */
     const real w2 = w2_y1 - w2_e1;
 
+    return w2;
+}
+
+/* what the tolerance of m.me.fe can do */
+static real bound_r1_w3(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w3_s3 = REAL(0.0);
@@ -885,6 +966,14 @@ static void bound_r1(
     /* what the tolerance of m.me.fe can do */
     const real w3 = w3_y1;
 
+    return w3;
+}
+
+/* what the tolerance of m.wh.fs can do */
+static real bound_r1_w4(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w4_s3 = REAL(0.0);
@@ -922,6 +1011,14 @@ static void bound_r1(
     /* what the tolerance of m.wh.fs can do */
     const real w4 = w4_y1;
 
+    return w4;
+}
+
+/* what the tolerances of m.el.Re and m.el.k can do together */
+static real bound_r1_w5(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w5_s3 = REAL(0.0);
@@ -960,6 +1057,14 @@ static void bound_r1(
     /* what the tolerances of m.el.Re and m.el.k can do together */
     const real w5 = w5_y1;
 
+    return w5;
+}
+
+/* what the tolerances of m.el.Re and m.me.fe can do together */
+static real bound_r1_w6(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w6_s3 = REAL(0.0);
@@ -985,6 +1090,14 @@ static void bound_r1(
     /* what the tolerances of m.el.Re and m.me.fe can do together */
     const real w6 = w6_y1;
 
+    return w6;
+}
+
+/* what the tolerances of m.el.Re and m.wh.fs can do together */
+static real bound_r1_w7(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w7_s3 = REAL(0.0);
@@ -1010,6 +1123,14 @@ static void bound_r1(
     /* what the tolerances of m.el.Re and m.wh.fs can do together */
     const real w7 = w7_y1;
 
+    return w7;
+}
+
+/* second order of what the tolerance of m.el.k can do */
+static real bound_r1_w8(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w8_s3 = REAL(0.0);
@@ -1058,6 +1179,14 @@ static void bound_r1(
     /* second order of what the tolerance of m.el.k can do */
     const real w8 = w8_y1 - w8_e1;
 
+    return w8;
+}
+
+/* what the tolerances of m.el.k and m.me.fe can do together */
+static real bound_r1_w9(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w9_s3 = REAL(0.0);
@@ -1095,6 +1224,14 @@ static void bound_r1(
     /* what the tolerances of m.el.k and m.me.fe can do together */
     const real w9 = w9_y1;
 
+    return w9;
+}
+
+/* what the tolerances of m.el.k and m.wh.fs can do together */
+static real bound_r1_w10(const drive_bench_threshold_coefficients *c,
+        drive_bench_threshold_memory *x, const drive_bench_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w10_s3 = REAL(0.0);
@@ -1131,6 +1268,38 @@ static void bound_r1(
 
     /* what the tolerances of m.el.k and m.wh.fs can do together */
     const real w10 = w10_y1;
+
+    return w10;
+}
+
+/* r1 on one sample.
+ * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
+static void bound_r1(
+    const drive_bench_threshold_coefficients *c, drive_bench_threshold_memory *x, const drive_bench_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_w1_s3 = REAL(0.0);
+        x->r1_w1_s2 = REAL(0.0);
+        x->r1_w1_s1 = REAL(0.0);
+    }
+
+    /* r1_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    const real w1 = bound_r1_w1(c, x, s, w1_a, w1_b);
+    const real w2 = bound_r1_w2(c, x, s, first, w1_a, w1_b);
+    const real w3 = bound_r1_w3(c, x, s, first, w1_a, w1_b);
+    const real w4 = bound_r1_w4(c, x, s, first, w1_a, w1_b);
+    const real w5 = bound_r1_w5(c, x, s, first, w1_a, w1_b);
+    const real w6 = bound_r1_w6(c, x, s, first, w1_a, w1_b);
+    const real w7 = bound_r1_w7(c, x, s, first, w1_a, w1_b);
+    const real w8 = bound_r1_w8(c, x, s, first, w1_a, w1_b);
+    const real w9 = bound_r1_w9(c, x, s, first, w1_a, w1_b);
+    const real w10 = bound_r1_w10(c, x, s, first, w1_a, w1_b);
 
     r[DRIVE_BENCH_R1] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
@@ -1297,12 +1466,27 @@ static void forget_sums(drive_bench_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined DRIVE_BENCH_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const drive_bench_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     drive_bench_diagnosis *d, const drive_bench_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -1394,6 +1578,7 @@ void drive_bench_clear(drive_bench_diagnosis *diagnosis)
     diagnosis->fault_class = DRIVE_BENCH_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void drive_bench_diagnosis_reset(drive_bench_diagnosis *diagnosis)
@@ -1411,6 +1596,40 @@ void drive_bench_diagnosis_reset(drive_bench_diagnosis *diagnosis)
     drive_bench_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const drive_bench_limit *limits, const real *bounds, const drive_bench_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < DRIVE_BENCH_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < DRIVE_BENCH_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(drive_bench_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == DRIVE_BENCH_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = DRIVE_BENCH_BLIND;
+    }
+}
+
 bool drive_bench_diagnose(
     drive_bench_diagnosis *diagnosis,
     const drive_bench_limit *limits,
@@ -1425,6 +1644,10 @@ bool drive_bench_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -1436,13 +1659,9 @@ bool drive_bench_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == DRIVE_BENCH_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = DRIVE_BENCH_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == DRIVE_BENCH_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == DRIVE_BENCH_ALARM;
     }
     if (fresh) {

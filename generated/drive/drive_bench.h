@@ -371,6 +371,7 @@ typedef struct drive_bench_diagnosis {
     int16_t fault_class; /* the one that is left, or DRIVE_BENCH_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     drive_bench_real above[DRIVE_BENCH_RESIDUALS];
     drive_bench_real below[DRIVE_BENCH_RESIDUALS];
     drive_bench_real louder[DRIVE_BENCH_RESIDUALS];

@@ -4,6 +4,7 @@
 #ifndef DRIVE_AS_DRAWN_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -137,22 +138,9 @@ const drive_as_drawn_coefficients drive_as_drawn_nominal_coefficients = {
     562u                           /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void compute_coefficients(drive_as_drawn_coefficients *c, const drive_as_drawn_parameters *p,
-        real sample_time, real bandwidth)
+/* r1: coefficients */
+static void compute_r1(drive_as_drawn_coefficients *c, const drive_as_drawn_parameters *p, real w)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
     /* khepera.bg:17: el.L*me.fe/el.k */
     const real L_times_fe_over_k = p->el__L * p->me__fe / p->el__k;
 
@@ -165,10 +153,7 @@ static void compute_coefficients(drive_as_drawn_coefficients *c, const drive_as_
     /* el.Re*wh.Js/(ge.N*el.k) */
     const real product_2 = p->el__Re * p->wh__Js / p->ge__N / p->el__k;
 
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: r1: factor of me.we: el.k + el.Re*me.fe/el.k */
+    /* r1: factor of me.we: el.k + el.Re*me.fe/el.k */
     c->r1_me__we = p->el__k + p->el__Re * p->me__fe / p->el__k;
 
     /* r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)):
@@ -180,12 +165,6 @@ static void compute_coefficients(drive_as_drawn_coefficients *c, const drive_as_
 
     /* r1: factor of Fx: el.Re*wh.R/(ge.N*el.k) */
     c->r1_Fx = p->el__Re * p->wh__R / p->ge__N / p->el__k;
-
-    /* (1/96)*sample_time/tau0 */
-    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->tau0;
-
-    /* (1/96)*ge.N*sample_time/tau0 */
-    c->scaled_N_times_sample_time_over_tau0 = p->ge__N * sample_time / REAL(96.0) / p->tau0;
 
     /* r1: factor of me.we' */
     c->r1_w1_me__we = (-L_times_fe_over_k - Re_times_Je_over_k) * w;
@@ -204,6 +183,13 @@ static void compute_coefficients(drive_as_drawn_coefficients *c, const drive_as_
 
     /* r1: factor of Fx' */
     c->r1_w1_Fx = p->el__L * p->wh__R * w / p->ge__N / p->el__k;
+}
+
+/* filter: coefficients */
+static void compute_filter(drive_as_drawn_coefficients *c, real pole, real turn)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
 
     /* filter: 2 * (w*sample_time)^2/12 */
     c->bend2 = turn_2 / REAL(6.0);
@@ -216,7 +202,11 @@ static void compute_coefficients(drive_as_drawn_coefficients *c, const drive_as_
 
     /* filter: weight of a sample, new and a sample later */
     c->b = REAL(0.5) * (REAL(1.0) - pole);
+}
 
+/* r2: coefficients */
+static void compute_r2(drive_as_drawn_coefficients *c, const drive_as_drawn_parameters *p, real w)
+{
     /* khepera.bg:41: r2: factor of wh.ws: ge.N */
     c->r2_wh__ws = p->ge__N;
 
@@ -228,6 +218,33 @@ static void compute_coefficients(drive_as_drawn_coefficients *c, const drive_as_
 
     /* r2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
     c->r2_w1_tanh = p->tau0 * p->A * w;
+}
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(drive_as_drawn_coefficients *c, const drive_as_drawn_parameters *p,
+        real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* khepera.bg:17: (1/96)*sample_time/tau0 */
+    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->tau0;
+
+    /* (1/96)*ge.N*sample_time/tau0 */
+    c->scaled_N_times_sample_time_over_tau0 = p->ge__N * sample_time / REAL(96.0) / p->tau0;
+
+    compute_r1(c, p, w);
+    compute_filter(c, pole, turn);
+    compute_r2(c, p, w);
 }
 
 static bool coefficients_are_finite(const drive_as_drawn_coefficients *c)
@@ -266,6 +283,33 @@ drive_as_drawn_status drive_as_drawn_configure(
     return DRIVE_AS_DRAWN_OK;
 }
 
+/* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+static real run_r1_tanh(const drive_as_drawn_coefficients *c, drive_as_drawn_memory *x,
+        const drive_as_drawn_samples *s, bool first)
+{
+    /* sample_time/24 times me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
+    const real rate = c->scaled_sample_time_over_tau0 * s->me__we
+        - c->scaled_N_times_sample_time_over_tau0 * s->wh__ws;
+
+    if (first) {
+        /* r1: the integral is 0 at the start */
+        x->r1_q = -REAL(12.0) * rate;
+        x->r1_rate1 = rate;
+        x->r1_rate2 = rate;
+    }
+
+    /* its integral since the start, by the rule of Adams */
+    const real integral = x->r1_q + REAL(9.0) * rate + REAL(4.0) * x->r1_rate1 - x->r1_rate2;
+    x->r1_q = x->r1_q + REAL(24.0) * rate;
+    x->r1_rate2 = x->r1_rate1;
+    x->r1_rate1 = rate;
+
+    /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    const real tanh_ = near_tanh(integral);
+
+    return tanh_;
+}
+
 /* r1 on one sample.
  * khepera.bg:17: r1 = U0 - el.k*me.we - el.Re*el.k.e2/el.k - el.L*D(el.k.e2)/el.k
  * where el.k.e2 = me.fe*me.we + me.Je*D(me.we) + (wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
@@ -287,25 +331,7 @@ static void run_r1(
     const real a = first ? -c->b : c->a;
     const real b = first ? REAL(1.0) : c->b;
 
-    /* sample_time/24 times me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
-    const real rate = c->scaled_sample_time_over_tau0 * s->me__we
-        - c->scaled_N_times_sample_time_over_tau0 * s->wh__ws;
-
-    if (first) {
-        /* r1: the integral is 0 at the start */
-        x->r1_q = -REAL(12.0) * rate;
-        x->r1_rate1 = rate;
-        x->r1_rate2 = rate;
-    }
-
-    /* its integral since the start, by the rule of Adams */
-    const real integral = x->r1_q + REAL(9.0) * rate + REAL(4.0) * x->r1_rate1 - x->r1_rate2;
-    x->r1_q = x->r1_q + REAL(24.0) * rate;
-    x->r1_rate2 = x->r1_rate1;
-    x->r1_rate1 = rate;
-
-    /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real tanh_ = near_tanh(integral);
+    const real tanh_ = run_r1_tanh(c, x, s, first);
 
     /* terms of order 0 */
     const real g0 = s->U0 + c->r1_tanh * tanh_ - c->r1_me__we * s->me__we - c->r1_wh__ws * s->wh__ws
@@ -347,25 +373,10 @@ static void run_r1(
     r[DRIVE_AS_DRAWN_R1] = y1 - e1;
 }
 
-/* r2 on one sample.
- * khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
- * tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K) */
-static void run_r2(
-    const drive_as_drawn_coefficients *c, drive_as_drawn_memory *x, const drive_as_drawn_samples *s, real *r)
+/* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+static real run_r2_tanh(const drive_as_drawn_coefficients *c, drive_as_drawn_memory *x,
+        const drive_as_drawn_samples *s, bool first)
 {
-    const bool first = x->youngest == 0u && x->age[1] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r2_s3 = REAL(0.0);
-        x->r2_s2 = REAL(0.0);
-        x->r2_s1 = REAL(0.0);
-    }
-
-    /* a stage of the filter; on the first sample it is at rest */
-    const real a = first ? -c->b : c->a;
-    const real b = first ? REAL(1.0) : c->b;
-
     /* sample_time/24 times me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
     const real rate = c->scaled_sample_time_over_tau0 * s->me__we
         - c->scaled_N_times_sample_time_over_tau0 * s->wh__ws;
@@ -385,6 +396,30 @@ static void run_r2(
 
     /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
     const real tanh_ = near_tanh(integral);
+
+    return tanh_;
+}
+
+/* r2 on one sample.
+ * khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
+ * tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K) */
+static void run_r2(
+    const drive_as_drawn_coefficients *c, drive_as_drawn_memory *x, const drive_as_drawn_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_s3 = REAL(0.0);
+        x->r2_s2 = REAL(0.0);
+        x->r2_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    const real tanh_ = run_r2_tanh(c, x, s, first);
 
     /* terms of order 0 */
     const real g0 = s->me__we - c->r2_wh__ws * s->wh__ws;
@@ -561,68 +596,11 @@ const drive_as_drawn_threshold_coefficients drive_as_drawn_threshold_nominal_coe
     562u                            /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void bound_compute_coefficients(drive_as_drawn_threshold_coefficients *c,
-        const drive_as_drawn_parameters *p, real sample_time, real bandwidth)
+/* r1_w1: coefficients */
+static void bound_compute_r1_w1(drive_as_drawn_threshold_coefficients *c, real Re_times_fe_over_k,
+        real product, real product_2, real product_3, real product_8, real product_9)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
-    /* khepera.bg:17: el.Re*me.fe/el.k */
-    const real Re_times_fe_over_k = p->el__Re * p->me__fe / p->el__k;
-
-    /* tau0*A*me.K*el.Re/el.k */
-    const real product = p->tau0 * p->A * p->me__K * p->el__Re / p->el__k;
-
-    /* el.Re*wh.fs/(ge.N*el.k) */
-    const real product_2 = p->el__Re * p->wh__fs / p->ge__N / p->el__k;
-
-    /* el.Re*wh.R/(ge.N*el.k) */
-    const real product_3 = p->el__Re * p->wh__R / p->ge__N / p->el__k;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: el.L*me.Je*w^2/el.k */
-    const real product_4 = p->el__L * p->me__Je * w * w / p->el__k;
-
-    /* tau0*A*me.K*el.L*w/el.k */
-    const real product_5 = p->tau0 * p->A * p->me__K * p->el__L * w / p->el__k;
-
-    /* el.L*wh.Js*w^2/(ge.N*el.k) */
-    const real product_6 = p->el__L * p->wh__Js * w * w / p->ge__N / p->el__k;
-
-    /* el.L*wh.R*w/(ge.N*el.k) */
-    const real product_7 = p->el__L * p->wh__R * w / p->ge__N / p->el__k;
-
-    /* el.Re*me.Je*w/el.k */
-    const real product_8 = p->el__Re * p->me__Je * w / p->el__k;
-
-    /* el.Re*wh.Js*w/(ge.N*el.k) */
-    const real product_9 = p->el__Re * p->wh__Js * w / p->ge__N / p->el__k;
-
-    /* el.L*me.fe*w/el.k */
-    const real product_10 = p->el__L * p->me__fe * w / p->el__k;
-
-    /* el.L*wh.fs*w/(ge.N*el.k) */
-    const real product_11 = p->el__L * p->wh__fs * w / p->ge__N / p->el__k;
-
-    /* (1/96)*sample_time/tau0 */
-    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->tau0;
-
-    /* (1/96)*ge.N*sample_time/tau0 */
-    c->scaled_N_times_sample_time_over_tau0 = p->ge__N * sample_time / REAL(96.0) / p->tau0;
-
-    /* r1_w1: factor of me.we */
+    /* khepera.bg:17: r1_w1: factor of me.we */
     c->r1_w1_me__we = Re_times_fe_over_k / REAL(20.0);
 
     /* r1_w1: factor of me.we' */
@@ -639,16 +617,13 @@ static void bound_compute_coefficients(drive_as_drawn_threshold_coefficients *c,
 
     /* r1_w1: factor of Fx */
     c->r1_w1_Fx = product_3 / REAL(20.0);
+}
 
-    /* filter: 1 * (w*sample_time)^2/12 */
-    c->bend1 = turn_2 / REAL(12.0);
-
-    /* filter: what is left of a memory a sample later */
-    c->a = pole;
-
-    /* filter: weight of a sample, new and a sample later */
-    c->b = REAL(0.5) * (REAL(1.0) - pole);
-
+/* r1_w2: coefficients */
+static void bound_compute_r1_w2(drive_as_drawn_threshold_coefficients *c,
+        const drive_as_drawn_parameters *p, real w, real product, real product_2, real product_3,
+        real product_4, real product_5, real product_6, real product_7)
+{
     /* khepera.bg:17: r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
     c->r1_w2_tanh = product / REAL(25.0);
 
@@ -681,23 +656,13 @@ static void bound_compute_coefficients(drive_as_drawn_threshold_coefficients *c,
 
     /* r1_w2: factor of me.we'' */
     c->r1_w2_w2_me__we = product_4 / REAL(50.0);
+}
 
-    /* filter: 2 * (w*sample_time)^2/12 */
-    c->bend2 = turn_2 / REAL(6.0);
-
-    /* khepera.bg:17: r1_w3: factor of me.we */
-    c->r1_w3_me__we = Re_times_fe_over_k / REAL(10.0);
-
-    /* r1_w3: factor of me.we' */
-    c->r1_w3_w1_me__we = product_10 / REAL(10.0);
-
-    /* r1_w4: factor of wh.ws */
-    c->r1_w4_wh__ws = product_2 / REAL(10.0);
-
-    /* r1_w4: factor of wh.ws' */
-    c->r1_w4_w1_wh__ws = product_11 / REAL(10.0);
-
-    /* r1_w5: factor of me.we */
+/* r1_w5: coefficients */
+static void bound_compute_r1_w5(drive_as_drawn_threshold_coefficients *c, real Re_times_fe_over_k,
+        real product, real product_2, real product_3, real product_8, real product_9)
+{
+    /* khepera.bg:17: r1_w5: factor of me.we */
     c->r1_w5_me__we = Re_times_fe_over_k / REAL(730.0);
 
     /* r1_w5: factor of me.we' */
@@ -714,14 +679,38 @@ static void bound_compute_coefficients(drive_as_drawn_threshold_coefficients *c,
 
     /* r1_w5: factor of Fx */
     c->r1_w5_Fx = product_3 / REAL(730.0);
+}
 
-    /* r1_w6: factor of me.we */
+/* r1_w3 to r1_w6: coefficients */
+static void bound_compute_r1_w3_to_r1_w6(drive_as_drawn_threshold_coefficients *c,
+        real Re_times_fe_over_k, real product, real product_2, real product_3, real product_8,
+        real product_9, real product_10, real product_11)
+{
+    /* khepera.bg:17: r1_w3: factor of me.we */
+    c->r1_w3_me__we = Re_times_fe_over_k / REAL(10.0);
+
+    /* r1_w3: factor of me.we' */
+    c->r1_w3_w1_me__we = product_10 / REAL(10.0);
+
+    /* r1_w4: factor of wh.ws */
+    c->r1_w4_wh__ws = product_2 / REAL(10.0);
+
+    /* r1_w4: factor of wh.ws' */
+    c->r1_w4_w1_wh__ws = product_11 / REAL(10.0);
+
+    bound_compute_r1_w5(c, Re_times_fe_over_k, product, product_2, product_3, product_8, product_9);
+
+    /* khepera.bg:17: r1_w6: factor of me.we */
     c->r1_w6_me__we = Re_times_fe_over_k / REAL(146.0);
+}
 
-    /* r1_w7: factor of wh.ws */
-    c->r1_w7_wh__ws = product_2 / REAL(146.0);
-
-    /* r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+/* r1_w8: coefficients */
+static void bound_compute_r1_w8(drive_as_drawn_threshold_coefficients *c,
+        const drive_as_drawn_parameters *p, real w, real Re_times_fe_over_k, real product,
+        real product_2, real product_3, real product_4, real product_5, real product_6,
+        real product_7)
+{
+    /* khepera.bg:17: r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
     c->r1_w8_tanh = REAL(2.0) * product / REAL(1825.0);
 
     /* r1_w8: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
@@ -755,8 +744,13 @@ static void bound_compute_coefficients(drive_as_drawn_threshold_coefficients *c,
 
     /* r1_w8: factor of me.we'' */
     c->r1_w8_w2_me__we = product_4 / REAL(1825.0);
+}
 
-    /* r1_w9: factor of me.we */
+/* r1_w9 to r1_w10: coefficients */
+static void bound_compute_r1_w9_to_r1_w10(drive_as_drawn_threshold_coefficients *c,
+        real Re_times_fe_over_k, real product_2, real product_10, real product_11)
+{
+    /* khepera.bg:17: r1_w9: factor of me.we */
     c->r1_w9_me__we = Re_times_fe_over_k / REAL(365.0);
 
     /* r1_w9: factor of me.we' */
@@ -767,6 +761,105 @@ static void bound_compute_coefficients(drive_as_drawn_threshold_coefficients *c,
 
     /* r1_w10: factor of wh.ws' */
     c->r1_w10_w1_wh__ws = product_11 / REAL(365.0);
+}
+
+/* r1: coefficients */
+static void bound_compute_r1(drive_as_drawn_threshold_coefficients *c,
+        const drive_as_drawn_parameters *p, real sample_time, real turn)
+{
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* khepera.bg:17: el.Re*me.fe/el.k */
+    const real Re_times_fe_over_k = p->el__Re * p->me__fe / p->el__k;
+
+    /* tau0*A*me.K*el.Re/el.k */
+    const real product = p->tau0 * p->A * p->me__K * p->el__Re / p->el__k;
+
+    /* el.Re*wh.fs/(ge.N*el.k) */
+    const real product_2 = p->el__Re * p->wh__fs / p->ge__N / p->el__k;
+
+    /* el.Re*wh.R/(ge.N*el.k) */
+    const real product_3 = p->el__Re * p->wh__R / p->ge__N / p->el__k;
+
+    /* el.L*me.Je*w^2/el.k */
+    const real product_4 = p->el__L * p->me__Je * w * w / p->el__k;
+
+    /* tau0*A*me.K*el.L*w/el.k */
+    const real product_5 = p->tau0 * p->A * p->me__K * p->el__L * w / p->el__k;
+
+    /* el.L*wh.Js*w^2/(ge.N*el.k) */
+    const real product_6 = p->el__L * p->wh__Js * w * w / p->ge__N / p->el__k;
+
+    /* el.L*wh.R*w/(ge.N*el.k) */
+    const real product_7 = p->el__L * p->wh__R * w / p->ge__N / p->el__k;
+
+    /* el.Re*me.Je*w/el.k */
+    const real product_8 = p->el__Re * p->me__Je * w / p->el__k;
+
+    /* el.Re*wh.Js*w/(ge.N*el.k) */
+    const real product_9 = p->el__Re * p->wh__Js * w / p->ge__N / p->el__k;
+
+    /* el.L*me.fe*w/el.k */
+    const real product_10 = p->el__L * p->me__fe * w / p->el__k;
+
+    /* el.L*wh.fs*w/(ge.N*el.k) */
+    const real product_11 = p->el__L * p->wh__fs * w / p->ge__N / p->el__k;
+
+    bound_compute_r1_w1(c, Re_times_fe_over_k, product, product_2, product_3, product_8, product_9);
+    bound_compute_r1_w2(c, p, w, product, product_2, product_3, product_4, product_5, product_6,
+            product_7);
+    bound_compute_r1_w3_to_r1_w6(c, Re_times_fe_over_k, product, product_2, product_3, product_8,
+            product_9, product_10, product_11);
+
+    /* khepera.bg:17: r1_w7: factor of wh.ws */
+    c->r1_w7_wh__ws = product_2 / REAL(146.0);
+
+    bound_compute_r1_w8(c, p, w, Re_times_fe_over_k, product, product_2, product_3, product_4,
+            product_5, product_6, product_7);
+    bound_compute_r1_w9_to_r1_w10(c, Re_times_fe_over_k, product_2, product_10, product_11);
+}
+
+/* filter: coefficients */
+static void bound_compute_filter(drive_as_drawn_threshold_coefficients *c, real pole, real turn)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn_2 / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = turn_2 / REAL(6.0);
+}
+
+/* The coefficients, from the parameters. */
+static void bound_compute_coefficients(drive_as_drawn_threshold_coefficients *c,
+        const drive_as_drawn_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* khepera.bg:17: (1/96)*sample_time/tau0 */
+    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->tau0;
+
+    /* (1/96)*ge.N*sample_time/tau0 */
+    c->scaled_N_times_sample_time_over_tau0 = p->ge__N * sample_time / REAL(96.0) / p->tau0;
+
+    bound_compute_r1(c, p, sample_time, turn);
+    bound_compute_filter(c, pole, turn);
 }
 
 static bool bound_coefficients_are_finite(const drive_as_drawn_threshold_coefficients *c)
@@ -812,28 +905,9 @@ drive_as_drawn_status drive_as_drawn_threshold_configure(
     return DRIVE_AS_DRAWN_OK;
 }
 
-/* r1 on one sample.
- * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
-static void bound_r1(
-    const drive_as_drawn_threshold_coefficients *c, drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, real *r)
+/* its integral since the start, by the rule of Adams */
+static real bound_r1_w1_integral(drive_as_drawn_threshold_memory *x, bool first, real w1_rate)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r1_w1_s3 = REAL(0.0);
-        x->r1_w1_s2 = REAL(0.0);
-        x->r1_w1_s1 = REAL(0.0);
-    }
-
-    /* r1_w1: a stage of the filter; on the first sample it is at rest */
-    const real w1_a = first ? -c->b : c->a;
-    const real w1_b = first ? REAL(1.0) : c->b;
-
-    /* sample_time/24 times me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
-    const real w1_rate = c->scaled_sample_time_over_tau0 * s->me__we
-        - c->scaled_N_times_sample_time_over_tau0 * s->wh__ws;
-
     if (first) {
         /* r1_w1: the integral is 0 at the start */
         x->r1_w1_q = -REAL(12.0) * w1_rate;
@@ -848,9 +922,14 @@ static void bound_r1(
     x->r1_w1_rate2 = x->r1_w1_rate1;
     x->r1_w1_rate1 = w1_rate;
 
-    /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real w1_tanh = near_tanh(w1_integral);
+    return w1_integral;
+}
 
+/* what the tolerance of el.Re can do */
+static real bound_r1_w1(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, real w1_a, real w1_b,
+        real w1_tanh)
+{
     /* r1_w1: terms of order 0 */
     const real w1_g0 = c->r1_w1_tanh * w1_tanh - c->r1_w1_me__we * s->me__we
         - c->r1_w1_wh__ws * s->wh__ws - c->r1_w1_Fx * s->Fx;
@@ -882,17 +961,12 @@ static void bound_r1(
     /* what the tolerance of el.Re can do */
     const real w1 = w1_y1;
 
-    if (first) {
-        /* nothing is remembered yet */
-        x->r1_w2_s3 = REAL(0.0);
-        x->r1_w2_s2 = REAL(0.0);
-        x->r1_w2_s1 = REAL(0.0);
-    }
+    return w1;
+}
 
-    /* sample_time/24 times me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
-    const real w2_rate = c->scaled_sample_time_over_tau0 * s->me__we
-        - c->scaled_N_times_sample_time_over_tau0 * s->wh__ws;
-
+/* its integral since the start, by the rule of Adams */
+static real bound_r1_w2_integral(drive_as_drawn_threshold_memory *x, bool first, real w2_rate)
+{
     if (first) {
         /* r1_w2: the integral is 0 at the start */
         x->r1_w2_q = -REAL(12.0) * w2_rate;
@@ -907,9 +981,14 @@ static void bound_r1(
     x->r1_w2_rate2 = x->r1_w2_rate1;
     x->r1_w2_rate1 = w2_rate;
 
-    /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real w2_tanh = near_tanh(w2_integral);
+    return w2_integral;
+}
 
+/* what the tolerance of el.k can do */
+static real bound_r1_w2(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, real w1_a, real w1_b,
+        real w2_tanh)
+{
     /* r1_w2: terms of order 0 */
     const real w2_g0 = c->r1_w2_wh__ws * s->wh__ws + c->r1_w2_Fx * s->Fx
         + c->r1_w2_me__we * s->me__we - c->r1_w2_tanh * w2_tanh;
@@ -950,6 +1029,14 @@ static void bound_r1(
     /* what the tolerance of el.k can do */
     const real w2 = w2_y1 - w2_e1;
 
+    return w2;
+}
+
+/* what the tolerance of me.fe can do */
+static real bound_r1_w3(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w3_s3 = REAL(0.0);
@@ -987,6 +1074,14 @@ static void bound_r1(
     /* what the tolerance of me.fe can do */
     const real w3 = w3_y1;
 
+    return w3;
+}
+
+/* what the tolerance of wh.fs can do */
+static real bound_r1_w4(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w4_s3 = REAL(0.0);
@@ -1024,6 +1119,13 @@ static void bound_r1(
     /* what the tolerance of wh.fs can do */
     const real w4 = w4_y1;
 
+    return w4;
+}
+
+/* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+static real bound_r1_w5_tanh(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, bool first)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w5_s3 = REAL(0.0);
@@ -1052,6 +1154,14 @@ static void bound_r1(
     /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
     const real w5_tanh = near_tanh(w5_integral);
 
+    return w5_tanh;
+}
+
+/* what the tolerances of el.Re and el.k can do together */
+static real bound_r1_w5(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, real w1_a, real w1_b,
+        real w5_tanh)
+{
     /* r1_w5: terms of order 0 */
     const real w5_g0 = c->r1_w5_me__we * s->me__we + c->r1_w5_wh__ws * s->wh__ws
         + c->r1_w5_Fx * s->Fx - c->r1_w5_tanh * w5_tanh;
@@ -1083,6 +1193,14 @@ static void bound_r1(
     /* what the tolerances of el.Re and el.k can do together */
     const real w5 = w5_y1;
 
+    return w5;
+}
+
+/* what the tolerances of el.Re and me.fe can do together */
+static real bound_r1_w6(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w6_s3 = REAL(0.0);
@@ -1108,6 +1226,14 @@ static void bound_r1(
     /* what the tolerances of el.Re and me.fe can do together */
     const real w6 = w6_y1;
 
+    return w6;
+}
+
+/* what the tolerances of el.Re and wh.fs can do together */
+static real bound_r1_w7(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w7_s3 = REAL(0.0);
@@ -1133,6 +1259,13 @@ static void bound_r1(
     /* what the tolerances of el.Re and wh.fs can do together */
     const real w7 = w7_y1;
 
+    return w7;
+}
+
+/* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+static real bound_r1_w8_tanh(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, bool first)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w8_s3 = REAL(0.0);
@@ -1161,6 +1294,14 @@ static void bound_r1(
     /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
     const real w8_tanh = near_tanh(w8_integral);
 
+    return w8_tanh;
+}
+
+/* second order of what the tolerance of el.k can do */
+static real bound_r1_w8(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, real w1_a, real w1_b,
+        real w8_tanh)
+{
     /* r1_w8: terms of order 0 */
     const real w8_g0 = c->r1_w8_tanh * w8_tanh - c->r1_w8_wh__ws * s->wh__ws - c->r1_w8_Fx * s->Fx
         - c->r1_w8_me__we * s->me__we;
@@ -1201,6 +1342,14 @@ static void bound_r1(
     /* second order of what the tolerance of el.k can do */
     const real w8 = w8_y1 - w8_e1;
 
+    return w8;
+}
+
+/* what the tolerances of el.k and me.fe can do together */
+static real bound_r1_w9(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w9_s3 = REAL(0.0);
@@ -1238,6 +1387,14 @@ static void bound_r1(
     /* what the tolerances of el.k and me.fe can do together */
     const real w9 = w9_y1;
 
+    return w9;
+}
+
+/* what the tolerances of el.k and wh.fs can do together */
+static real bound_r1_w10(const drive_as_drawn_threshold_coefficients *c,
+        drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, bool first, real w1_a,
+        real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w10_s3 = REAL(0.0);
@@ -1274,6 +1431,66 @@ static void bound_r1(
 
     /* what the tolerances of el.k and wh.fs can do together */
     const real w10 = w10_y1;
+
+    return w10;
+}
+
+/* r1 on one sample.
+ * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
+static void bound_r1(
+    const drive_as_drawn_threshold_coefficients *c, drive_as_drawn_threshold_memory *x, const drive_as_drawn_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_w1_s3 = REAL(0.0);
+        x->r1_w1_s2 = REAL(0.0);
+        x->r1_w1_s1 = REAL(0.0);
+    }
+
+    /* r1_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    /* sample_time/24 times me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
+    const real w1_rate = c->scaled_sample_time_over_tau0 * s->me__we
+        - c->scaled_N_times_sample_time_over_tau0 * s->wh__ws;
+
+    const real w1_integral = bound_r1_w1_integral(x, first, w1_rate);
+
+    /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    const real w1_tanh = near_tanh(w1_integral);
+
+    const real w1 = bound_r1_w1(c, x, s, w1_a, w1_b, w1_tanh);
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_w2_s3 = REAL(0.0);
+        x->r1_w2_s2 = REAL(0.0);
+        x->r1_w2_s1 = REAL(0.0);
+    }
+
+    /* sample_time/24 times me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
+    const real w2_rate = c->scaled_sample_time_over_tau0 * s->me__we
+        - c->scaled_N_times_sample_time_over_tau0 * s->wh__ws;
+
+    const real w2_integral = bound_r1_w2_integral(x, first, w2_rate);
+
+    /* tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    const real w2_tanh = near_tanh(w2_integral);
+
+    const real w2 = bound_r1_w2(c, x, s, w1_a, w1_b, w2_tanh);
+    const real w3 = bound_r1_w3(c, x, s, first, w1_a, w1_b);
+    const real w4 = bound_r1_w4(c, x, s, first, w1_a, w1_b);
+    const real w5_tanh = bound_r1_w5_tanh(c, x, s, first);
+    const real w5 = bound_r1_w5(c, x, s, w1_a, w1_b, w5_tanh);
+    const real w6 = bound_r1_w6(c, x, s, first, w1_a, w1_b);
+    const real w7 = bound_r1_w7(c, x, s, first, w1_a, w1_b);
+    const real w8_tanh = bound_r1_w8_tanh(c, x, s, first);
+    const real w8 = bound_r1_w8(c, x, s, w1_a, w1_b, w8_tanh);
+    const real w9 = bound_r1_w9(c, x, s, first, w1_a, w1_b);
+    const real w10 = bound_r1_w10(c, x, s, first, w1_a, w1_b);
 
     r[DRIVE_AS_DRAWN_R1] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
@@ -1439,12 +1656,27 @@ static void forget_sums(drive_as_drawn_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined DRIVE_AS_DRAWN_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const drive_as_drawn_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     drive_as_drawn_diagnosis *d, const drive_as_drawn_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -1536,6 +1768,7 @@ void drive_as_drawn_clear(drive_as_drawn_diagnosis *diagnosis)
     diagnosis->fault_class = DRIVE_AS_DRAWN_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void drive_as_drawn_diagnosis_reset(drive_as_drawn_diagnosis *diagnosis)
@@ -1553,6 +1786,40 @@ void drive_as_drawn_diagnosis_reset(drive_as_drawn_diagnosis *diagnosis)
     drive_as_drawn_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const drive_as_drawn_limit *limits, const real *bounds, const drive_as_drawn_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(drive_as_drawn_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == DRIVE_AS_DRAWN_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = DRIVE_AS_DRAWN_BLIND;
+    }
+}
+
 bool drive_as_drawn_diagnose(
     drive_as_drawn_diagnosis *diagnosis,
     const drive_as_drawn_limit *limits,
@@ -1567,6 +1834,10 @@ bool drive_as_drawn_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -1578,13 +1849,9 @@ bool drive_as_drawn_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == DRIVE_AS_DRAWN_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = DRIVE_AS_DRAWN_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == DRIVE_AS_DRAWN_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == DRIVE_AS_DRAWN_ALARM;
     }
     if (fresh) {

@@ -414,6 +414,7 @@ typedef struct drive_as_drawn_diagnosis {
     int16_t fault_class; /* the one that is left, or DRIVE_AS_DRAWN_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     drive_as_drawn_real above[DRIVE_AS_DRAWN_RESIDUALS];
     drive_as_drawn_real below[DRIVE_AS_DRAWN_RESIDUALS];
     drive_as_drawn_real louder[DRIVE_AS_DRAWN_RESIDUALS];

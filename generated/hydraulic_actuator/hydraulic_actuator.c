@@ -2,6 +2,7 @@
 #include "hydraulic_actuator.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -633,12 +634,27 @@ static void forget_sums(hydraulic_actuator_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined HYDRAULIC_ACTUATOR_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const hydraulic_actuator_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     hydraulic_actuator_diagnosis *d, const hydraulic_actuator_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -730,6 +746,7 @@ void hydraulic_actuator_clear(hydraulic_actuator_diagnosis *diagnosis)
     diagnosis->fault_class = HYDRAULIC_ACTUATOR_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void hydraulic_actuator_diagnosis_reset(hydraulic_actuator_diagnosis *diagnosis)
@@ -747,6 +764,40 @@ void hydraulic_actuator_diagnosis_reset(hydraulic_actuator_diagnosis *diagnosis)
     hydraulic_actuator_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const hydraulic_actuator_limit *limits, const real *bounds, const hydraulic_actuator_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < HYDRAULIC_ACTUATOR_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < HYDRAULIC_ACTUATOR_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(hydraulic_actuator_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == HYDRAULIC_ACTUATOR_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = HYDRAULIC_ACTUATOR_BLIND;
+    }
+}
+
 bool hydraulic_actuator_diagnose(
     hydraulic_actuator_diagnosis *diagnosis,
     const hydraulic_actuator_limit *limits,
@@ -761,6 +812,10 @@ bool hydraulic_actuator_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -772,13 +827,9 @@ bool hydraulic_actuator_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == HYDRAULIC_ACTUATOR_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = HYDRAULIC_ACTUATOR_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == HYDRAULIC_ACTUATOR_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == HYDRAULIC_ACTUATOR_ALARM;
     }
     if (fresh) {

@@ -279,6 +279,7 @@ typedef struct hydraulic_actuator_diagnosis {
     int16_t fault_class; /* the one that is left, or HYDRAULIC_ACTUATOR_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     hydraulic_actuator_real above[HYDRAULIC_ACTUATOR_RESIDUALS];
     hydraulic_actuator_real below[HYDRAULIC_ACTUATOR_RESIDUALS];
     hydraulic_actuator_real louder[HYDRAULIC_ACTUATOR_RESIDUALS];

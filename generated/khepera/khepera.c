@@ -4,6 +4,7 @@
 #ifndef KHEPERA_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -168,22 +169,9 @@ const khepera_coefficients khepera_nominal_coefficients = {
     562u                             /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void compute_coefficients(khepera_coefficients *c, const khepera_parameters *p,
-        real sample_time, real bandwidth)
+/* r1: coefficients */
+static void compute_r1(khepera_coefficients *c, const khepera_parameters *p, real w)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
     /* khepera.bg:17: m[1].el.L*m[1].me.fe/m[1].el.k */
     const real L_times_fe_over_k = p->m__1__el__L * p->m__1__me__fe / p->m__1__el__k;
 
@@ -196,22 +184,7 @@ static void compute_coefficients(khepera_coefficients *c, const khepera_paramete
     /* m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].el.k) */
     const real product_2 = p->m__1__el__Re * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k;
 
-    /* m[2].el.L*m[2].me.fe/m[2].el.k */
-    const real L_times_fe_over_k_2 = p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k;
-
-    /* m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k) */
-    const real product_3 = p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k;
-
-    /* m[2].el.Re*m[2].me.Je/m[2].el.k */
-    const real Re_times_Je_over_k_2 = p->m__2__el__Re * p->m__2__me__Je / p->m__2__el__k;
-
-    /* m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].el.k) */
-    const real product_4 = p->m__2__el__Re * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: r1: factor of m[1].me.we: m[1].el.k + m[1].el.Re*m[1].me.fe/m[1].el.k */
+    /* r1: factor of m[1].me.we: m[1].el.k + m[1].el.Re*m[1].me.fe/m[1].el.k */
     c->r1_m__1__me__we = p->m__1__el__k + p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k;
 
     /* r1: factor of m[1].wh.ws: m[1].el.Re*m[1].wh.fs/(m[1].ge.N*m[1].el.k) */
@@ -235,6 +208,13 @@ static void compute_coefficients(khepera_coefficients *c, const khepera_paramete
 
     /* r1: factor of Fx[1]' */
     c->r1_w1_Fx__1 = p->m__1__el__L * p->m__1__wh__R * w / p->m__1__ge__N / p->m__1__el__k;
+}
+
+/* filter: coefficients */
+static void compute_filter(khepera_coefficients *c, real pole, real turn)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
 
     /* filter: 2 * (w*sample_time)^2/12 */
     c->bend2 = turn_2 / REAL(6.0);
@@ -247,16 +227,13 @@ static void compute_coefficients(khepera_coefficients *c, const khepera_paramete
 
     /* filter: weight of a sample, new and a sample later */
     c->b = REAL(0.5) * (REAL(1.0) - pole);
+}
 
+/* r2: coefficients */
+static void compute_r2(khepera_coefficients *c, const khepera_parameters *p, real w)
+{
     /* khepera.bg:41: r2: factor of m[1].wh.ws: m[1].ge.N */
     c->r2_m__1__wh__ws = p->m__1__ge__N;
-
-    /* (1/96)*sample_time/m[1].tau0 */
-    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->m__1__tau0;
-
-    /* (1/96)*m[1].ge.N*sample_time/m[1].tau0 */
-    c->scaled_N_times_sample_time_over_tau0 = p->m__1__ge__N * sample_time / REAL(96.0)
-            / p->m__1__tau0;
 
     /* r2: factor of m[1].wh.ws'' */
     c->r2_w2_m__1__wh__ws = p->m__1__wh__Js * w * w / p->m__1__ge__N / p->m__1__me__K;
@@ -267,8 +244,24 @@ static void compute_coefficients(khepera_coefficients *c, const khepera_paramete
     /* r2: factor of D(tanh(Int(m[1].me.we)/(4*m[1].tau0) -
      * m[1].ge.N*Int(m[1].wh.ws)/(4*m[1].tau0))) */
     c->r2_w1_tanh = p->m__1__tau0 * p->m__1__A * w;
+}
 
-    /* khepera.bg:17: r3: factor of m[2].me.we: m[2].el.k + m[2].el.Re*m[2].me.fe/m[2].el.k */
+/* r3: coefficients */
+static void compute_r3(khepera_coefficients *c, const khepera_parameters *p, real w)
+{
+    /* khepera.bg:17: m[2].el.L*m[2].me.fe/m[2].el.k */
+    const real L_times_fe_over_k_2 = p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k;
+
+    /* m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k) */
+    const real product_3 = p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k;
+
+    /* m[2].el.Re*m[2].me.Je/m[2].el.k */
+    const real Re_times_Je_over_k_2 = p->m__2__el__Re * p->m__2__me__Je / p->m__2__el__k;
+
+    /* m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].el.k) */
+    const real product_4 = p->m__2__el__Re * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k;
+
+    /* r3: factor of m[2].me.we: m[2].el.k + m[2].el.Re*m[2].me.fe/m[2].el.k */
     c->r3_m__2__me__we = p->m__2__el__k + p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k;
 
     /* r3: factor of m[2].wh.ws: m[2].el.Re*m[2].wh.fs/(m[2].ge.N*m[2].el.k) */
@@ -292,16 +285,13 @@ static void compute_coefficients(khepera_coefficients *c, const khepera_paramete
 
     /* r3: factor of Fx[2]' */
     c->r3_w1_Fx__2 = p->m__2__el__L * p->m__2__wh__R * w / p->m__2__ge__N / p->m__2__el__k;
+}
 
+/* r4: coefficients */
+static void compute_r4(khepera_coefficients *c, const khepera_parameters *p, real w)
+{
     /* khepera.bg:41: r4: factor of m[2].wh.ws: m[2].ge.N */
     c->r4_m__2__wh__ws = p->m__2__ge__N;
-
-    /* (1/96)*sample_time/m[2].tau0 */
-    c->scaled_sample_time_over_tau0_2 = sample_time / REAL(96.0) / p->m__2__tau0;
-
-    /* (1/96)*m[2].ge.N*sample_time/m[2].tau0 */
-    c->scaled_N_times_sample_time_over_tau0_2 = p->m__2__ge__N * sample_time / REAL(96.0)
-            / p->m__2__tau0;
 
     /* r4: factor of m[2].wh.ws'' */
     c->r4_w2_m__2__wh__ws = p->m__2__wh__Js * w * w / p->m__2__ge__N / p->m__2__me__K;
@@ -312,6 +302,43 @@ static void compute_coefficients(khepera_coefficients *c, const khepera_paramete
     /* r4: factor of D(tanh(Int(m[2].me.we)/(4*m[2].tau0) -
      * m[2].ge.N*Int(m[2].wh.ws)/(4*m[2].tau0))) */
     c->r4_w1_tanh = p->m__2__tau0 * p->m__2__A * w;
+}
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(khepera_coefficients *c, const khepera_parameters *p,
+        real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* khepera.bg:41: (1/96)*sample_time/m[1].tau0 */
+    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->m__1__tau0;
+
+    /* (1/96)*m[1].ge.N*sample_time/m[1].tau0 */
+    c->scaled_N_times_sample_time_over_tau0 = p->m__1__ge__N * sample_time / REAL(96.0)
+            / p->m__1__tau0;
+
+    /* (1/96)*sample_time/m[2].tau0 */
+    c->scaled_sample_time_over_tau0_2 = sample_time / REAL(96.0) / p->m__2__tau0;
+
+    /* (1/96)*m[2].ge.N*sample_time/m[2].tau0 */
+    c->scaled_N_times_sample_time_over_tau0_2 = p->m__2__ge__N * sample_time / REAL(96.0)
+            / p->m__2__tau0;
+
+    compute_r1(c, p, w);
+    compute_filter(c, pole, turn);
+    compute_r2(c, p, w);
+    compute_r3(c, p, w);
+    compute_r4(c, p, w);
 }
 
 static bool coefficients_are_finite(const khepera_coefficients *c)
@@ -420,6 +447,34 @@ static void run_r1(
     r[KHEPERA_R1] = y1 - e1;
 }
 
+/* tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1].wh.ws)/(4*m[1].tau0)) */
+static real run_r2_tanh(const khepera_coefficients *c, khepera_memory *x, const khepera_samples *s,
+        bool first)
+{
+    /* sample_time/24 times m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1].tau0), what
+     * is integrated */
+    const real rate = c->scaled_sample_time_over_tau0 * s->m__1__me__we
+        - c->scaled_N_times_sample_time_over_tau0 * s->m__1__wh__ws;
+
+    if (first) {
+        /* r2: the integral is 0 at the start */
+        x->r2_q = -REAL(12.0) * rate;
+        x->r2_rate1 = rate;
+        x->r2_rate2 = rate;
+    }
+
+    /* its integral since the start, by the rule of Adams */
+    const real integral = x->r2_q + REAL(9.0) * rate + REAL(4.0) * x->r2_rate1 - x->r2_rate2;
+    x->r2_q = x->r2_q + REAL(24.0) * rate;
+    x->r2_rate2 = x->r2_rate1;
+    x->r2_rate1 = rate;
+
+    /* tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1].wh.ws)/(4*m[1].tau0)) */
+    const real tanh_ = near_tanh(integral);
+
+    return tanh_;
+}
+
 /* r2 on one sample.
  * khepera.bg:41: r2 = m[1].me.we - m[1].ge.N*m[1].wh.ws - D(m[1].wh.fs*m[1].wh.ws +
  * Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws) -
@@ -441,26 +496,7 @@ static void run_r2(
     const real a = first ? -c->b : c->a;
     const real b = first ? REAL(1.0) : c->b;
 
-    /* sample_time/24 times m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1].tau0), what
-     * is integrated */
-    const real rate = c->scaled_sample_time_over_tau0 * s->m__1__me__we
-        - c->scaled_N_times_sample_time_over_tau0 * s->m__1__wh__ws;
-
-    if (first) {
-        /* r2: the integral is 0 at the start */
-        x->r2_q = -REAL(12.0) * rate;
-        x->r2_rate1 = rate;
-        x->r2_rate2 = rate;
-    }
-
-    /* its integral since the start, by the rule of Adams */
-    const real integral = x->r2_q + REAL(9.0) * rate + REAL(4.0) * x->r2_rate1 - x->r2_rate2;
-    x->r2_q = x->r2_q + REAL(24.0) * rate;
-    x->r2_rate2 = x->r2_rate1;
-    x->r2_rate1 = rate;
-
-    /* tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1].wh.ws)/(4*m[1].tau0)) */
-    const real tanh_ = near_tanh(integral);
+    const real tanh_ = run_r2_tanh(c, x, s, first);
 
     /* terms of order 0 */
     const real g0 = s->m__1__me__we - c->r2_m__1__wh__ws * s->m__1__wh__ws;
@@ -562,6 +598,34 @@ static void run_r3(
     r[KHEPERA_R3] = y1 - e1;
 }
 
+/* tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2].wh.ws)/(4*m[2].tau0)) */
+static real run_r4_tanh(const khepera_coefficients *c, khepera_memory *x, const khepera_samples *s,
+        bool first)
+{
+    /* sample_time/24 times m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2].tau0), what
+     * is integrated */
+    const real rate = c->scaled_sample_time_over_tau0_2 * s->m__2__me__we
+        - c->scaled_N_times_sample_time_over_tau0_2 * s->m__2__wh__ws;
+
+    if (first) {
+        /* r4: the integral is 0 at the start */
+        x->r4_q = -REAL(12.0) * rate;
+        x->r4_rate1 = rate;
+        x->r4_rate2 = rate;
+    }
+
+    /* its integral since the start, by the rule of Adams */
+    const real integral = x->r4_q + REAL(9.0) * rate + REAL(4.0) * x->r4_rate1 - x->r4_rate2;
+    x->r4_q = x->r4_q + REAL(24.0) * rate;
+    x->r4_rate2 = x->r4_rate1;
+    x->r4_rate1 = rate;
+
+    /* tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2].wh.ws)/(4*m[2].tau0)) */
+    const real tanh_ = near_tanh(integral);
+
+    return tanh_;
+}
+
 /* r4 on one sample.
  * khepera.bg:41: r4 = m[2].me.we - m[2].ge.N*m[2].wh.ws - D(m[2].wh.fs*m[2].wh.ws +
  * Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws) -
@@ -583,26 +647,7 @@ static void run_r4(
     const real a = first ? -c->b : c->a;
     const real b = first ? REAL(1.0) : c->b;
 
-    /* sample_time/24 times m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2].tau0), what
-     * is integrated */
-    const real rate = c->scaled_sample_time_over_tau0_2 * s->m__2__me__we
-        - c->scaled_N_times_sample_time_over_tau0_2 * s->m__2__wh__ws;
-
-    if (first) {
-        /* r4: the integral is 0 at the start */
-        x->r4_q = -REAL(12.0) * rate;
-        x->r4_rate1 = rate;
-        x->r4_rate2 = rate;
-    }
-
-    /* its integral since the start, by the rule of Adams */
-    const real integral = x->r4_q + REAL(9.0) * rate + REAL(4.0) * x->r4_rate1 - x->r4_rate2;
-    x->r4_q = x->r4_q + REAL(24.0) * rate;
-    x->r4_rate2 = x->r4_rate1;
-    x->r4_rate1 = rate;
-
-    /* tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2].wh.ws)/(4*m[2].tau0)) */
-    const real tanh_ = near_tanh(integral);
+    const real tanh_ = run_r4_tanh(c, x, s, first);
 
     /* terms of order 0 */
     const real g0 = s->m__2__me__we - c->r4_m__2__wh__ws * s->m__2__wh__ws;
@@ -842,88 +887,11 @@ const khepera_threshold_coefficients khepera_threshold_nominal_coefficients = {
     562u                             /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void bound_compute_coefficients(khepera_threshold_coefficients *c,
-        const khepera_parameters *p, real sample_time, real bandwidth)
+/* r1_w1: coefficients */
+static void bound_compute_r1_w1(khepera_threshold_coefficients *c, real Re_times_fe_over_k,
+        real product, real product_2, real product_11, real product_12)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
-    /* khepera.bg:17: m[1].el.Re*m[1].me.fe/m[1].el.k */
-    const real Re_times_fe_over_k = p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k;
-
-    /* m[1].el.Re*m[1].wh.fs/(m[1].ge.N*m[1].el.k) */
-    const real product = p->m__1__el__Re * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k;
-
-    /* m[1].el.Re*m[1].wh.R/(m[1].ge.N*m[1].el.k) */
-    const real product_2 = p->m__1__el__Re * p->m__1__wh__R / p->m__1__ge__N / p->m__1__el__k;
-
-    /* m[2].el.Re*m[2].me.fe/m[2].el.k */
-    const real Re_times_fe_over_k_2 = p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k;
-
-    /* m[2].el.Re*m[2].wh.fs/(m[2].ge.N*m[2].el.k) */
-    const real product_3 = p->m__2__el__Re * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k;
-
-    /* m[2].el.Re*m[2].wh.R/(m[2].ge.N*m[2].el.k) */
-    const real product_4 = p->m__2__el__Re * p->m__2__wh__R / p->m__2__ge__N / p->m__2__el__k;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: m[1].el.L*m[1].me.Je*w^2/m[1].el.k */
-    const real product_5 = p->m__1__el__L * p->m__1__me__Je * w * w / p->m__1__el__k;
-
-    /* m[1].el.L*m[1].wh.Js*w^2/(m[1].ge.N*m[1].el.k) */
-    const real product_6 = p->m__1__el__L * p->m__1__wh__Js * w * w / p->m__1__ge__N
-            / p->m__1__el__k;
-
-    /* m[1].el.L*m[1].wh.R*w/(m[1].ge.N*m[1].el.k) */
-    const real product_7 = p->m__1__el__L * p->m__1__wh__R * w / p->m__1__ge__N / p->m__1__el__k;
-
-    /* m[2].el.L*m[2].me.Je*w^2/m[2].el.k */
-    const real product_8 = p->m__2__el__L * p->m__2__me__Je * w * w / p->m__2__el__k;
-
-    /* m[2].el.L*m[2].wh.Js*w^2/(m[2].ge.N*m[2].el.k) */
-    const real product_9 = p->m__2__el__L * p->m__2__wh__Js * w * w / p->m__2__ge__N
-            / p->m__2__el__k;
-
-    /* m[2].el.L*m[2].wh.R*w/(m[2].ge.N*m[2].el.k) */
-    const real product_10 = p->m__2__el__L * p->m__2__wh__R * w / p->m__2__ge__N / p->m__2__el__k;
-
-    /* m[1].el.Re*m[1].wh.Js*w/(m[1].ge.N*m[1].el.k) */
-    const real product_11 = p->m__1__el__Re * p->m__1__wh__Js * w / p->m__1__ge__N / p->m__1__el__k;
-
-    /* m[1].el.Re*m[1].me.Je*w/m[1].el.k */
-    const real product_12 = p->m__1__el__Re * p->m__1__me__Je * w / p->m__1__el__k;
-
-    /* m[1].el.L*m[1].me.fe*w/m[1].el.k */
-    const real product_13 = p->m__1__el__L * p->m__1__me__fe * w / p->m__1__el__k;
-
-    /* m[1].el.L*m[1].wh.fs*w/(m[1].ge.N*m[1].el.k) */
-    const real product_14 = p->m__1__el__L * p->m__1__wh__fs * w / p->m__1__ge__N / p->m__1__el__k;
-
-    /* m[2].el.Re*m[2].wh.Js*w/(m[2].ge.N*m[2].el.k) */
-    const real product_15 = p->m__2__el__Re * p->m__2__wh__Js * w / p->m__2__ge__N / p->m__2__el__k;
-
-    /* m[2].el.Re*m[2].me.Je*w/m[2].el.k */
-    const real product_16 = p->m__2__el__Re * p->m__2__me__Je * w / p->m__2__el__k;
-
-    /* m[2].el.L*m[2].me.fe*w/m[2].el.k */
-    const real product_17 = p->m__2__el__L * p->m__2__me__fe * w / p->m__2__el__k;
-
-    /* m[2].el.L*m[2].wh.fs*w/(m[2].ge.N*m[2].el.k) */
-    const real product_18 = p->m__2__el__L * p->m__2__wh__fs * w / p->m__2__ge__N / p->m__2__el__k;
-
-    /* r1_w1: factor of Fx[1] */
+    /* khepera.bg:17: r1_w1: factor of Fx[1] */
     c->r1_w1_Fx__1 = product_2 / REAL(20.0);
 
     /* r1_w1: factor of m[1].wh.ws */
@@ -937,16 +905,12 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r1_w1: factor of m[1].me.we' */
     c->r1_w1_w1_m__1__me__we = product_12 / REAL(20.0);
+}
 
-    /* filter: 1 * (w*sample_time)^2/12 */
-    c->bend1 = turn_2 / REAL(12.0);
-
-    /* filter: what is left of a memory a sample later */
-    c->a = pole;
-
-    /* filter: weight of a sample, new and a sample later */
-    c->b = REAL(0.5) * (REAL(1.0) - pole);
-
+/* r1_w2: coefficients */
+static void bound_compute_r1_w2(khepera_threshold_coefficients *c, const khepera_parameters *p,
+        real w, real product, real product_2, real product_5, real product_6, real product_7)
+{
     /* khepera.bg:17: r1_w2: factor of m[1].me.we */
     c->r1_w2_m__1__me__we = p->m__1__el__k
             * (p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k / p->m__1__el__k
@@ -977,23 +941,13 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r1_w2: factor of m[1].wh.ws'' */
     c->r1_w2_w2_m__1__wh__ws = product_6 / REAL(50.0);
+}
 
-    /* filter: 2 * (w*sample_time)^2/12 */
-    c->bend2 = turn_2 / REAL(6.0);
-
-    /* khepera.bg:17: r1_w3: factor of m[1].me.we */
-    c->r1_w3_m__1__me__we = Re_times_fe_over_k / REAL(10.0);
-
-    /* r1_w3: factor of m[1].me.we' */
-    c->r1_w3_w1_m__1__me__we = product_13 / REAL(10.0);
-
-    /* r1_w4: factor of m[1].wh.ws */
-    c->r1_w4_m__1__wh__ws = product / REAL(10.0);
-
-    /* r1_w4: factor of m[1].wh.ws' */
-    c->r1_w4_w1_m__1__wh__ws = product_14 / REAL(10.0);
-
-    /* r1_w5: factor of m[1].me.we */
+/* r1_w5: coefficients */
+static void bound_compute_r1_w5(khepera_threshold_coefficients *c, real Re_times_fe_over_k,
+        real product, real product_2, real product_11, real product_12)
+{
+    /* khepera.bg:17: r1_w5: factor of m[1].me.we */
     c->r1_w5_m__1__me__we = Re_times_fe_over_k / REAL(730.0);
 
     /* r1_w5: factor of m[1].me.we' */
@@ -1007,14 +961,37 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r1_w5: factor of Fx[1] */
     c->r1_w5_Fx__1 = product_2 / REAL(730.0);
+}
 
-    /* r1_w6: factor of m[1].me.we */
+/* r1_w3 to r1_w6: coefficients */
+static void bound_compute_r1_w3_to_r1_w6(khepera_threshold_coefficients *c, real Re_times_fe_over_k,
+        real product, real product_2, real product_11, real product_12, real product_13,
+        real product_14)
+{
+    /* khepera.bg:17: r1_w3: factor of m[1].me.we */
+    c->r1_w3_m__1__me__we = Re_times_fe_over_k / REAL(10.0);
+
+    /* r1_w3: factor of m[1].me.we' */
+    c->r1_w3_w1_m__1__me__we = product_13 / REAL(10.0);
+
+    /* r1_w4: factor of m[1].wh.ws */
+    c->r1_w4_m__1__wh__ws = product / REAL(10.0);
+
+    /* r1_w4: factor of m[1].wh.ws' */
+    c->r1_w4_w1_m__1__wh__ws = product_14 / REAL(10.0);
+
+    bound_compute_r1_w5(c, Re_times_fe_over_k, product, product_2, product_11, product_12);
+
+    /* khepera.bg:17: r1_w6: factor of m[1].me.we */
     c->r1_w6_m__1__me__we = Re_times_fe_over_k / REAL(146.0);
+}
 
-    /* r1_w7: factor of m[1].wh.ws */
-    c->r1_w7_m__1__wh__ws = product / REAL(146.0);
-
-    /* r1_w8: factor of m[1].me.we */
+/* r1_w8: coefficients */
+static void bound_compute_r1_w8(khepera_threshold_coefficients *c, const khepera_parameters *p,
+        real w, real Re_times_fe_over_k, real product, real product_2, real product_5,
+        real product_6, real product_7)
+{
+    /* khepera.bg:17: r1_w8: factor of m[1].me.we */
     c->r1_w8_m__1__me__we = Re_times_fe_over_k / REAL(1825.0);
 
     /* r1_w8: factor of m[1].me.we' */
@@ -1047,8 +1024,54 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r1_w8: factor of Fx[1]' */
     c->r1_w8_w1_Fx__1 = product_7 / REAL(1825.0);
+}
 
-    /* r1_w9: factor of m[1].me.we */
+/* r1: coefficients */
+static void bound_compute_r1(khepera_threshold_coefficients *c, const khepera_parameters *p, real w)
+{
+    /* khepera.bg:17: m[1].el.Re*m[1].me.fe/m[1].el.k */
+    const real Re_times_fe_over_k = p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k;
+
+    /* m[1].el.Re*m[1].wh.fs/(m[1].ge.N*m[1].el.k) */
+    const real product = p->m__1__el__Re * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k;
+
+    /* m[1].el.Re*m[1].wh.R/(m[1].ge.N*m[1].el.k) */
+    const real product_2 = p->m__1__el__Re * p->m__1__wh__R / p->m__1__ge__N / p->m__1__el__k;
+
+    /* m[1].el.L*m[1].me.Je*w^2/m[1].el.k */
+    const real product_5 = p->m__1__el__L * p->m__1__me__Je * w * w / p->m__1__el__k;
+
+    /* m[1].el.L*m[1].wh.Js*w^2/(m[1].ge.N*m[1].el.k) */
+    const real product_6 = p->m__1__el__L * p->m__1__wh__Js * w * w / p->m__1__ge__N
+            / p->m__1__el__k;
+
+    /* m[1].el.L*m[1].wh.R*w/(m[1].ge.N*m[1].el.k) */
+    const real product_7 = p->m__1__el__L * p->m__1__wh__R * w / p->m__1__ge__N / p->m__1__el__k;
+
+    /* m[1].el.Re*m[1].wh.Js*w/(m[1].ge.N*m[1].el.k) */
+    const real product_11 = p->m__1__el__Re * p->m__1__wh__Js * w / p->m__1__ge__N / p->m__1__el__k;
+
+    /* m[1].el.Re*m[1].me.Je*w/m[1].el.k */
+    const real product_12 = p->m__1__el__Re * p->m__1__me__Je * w / p->m__1__el__k;
+
+    /* m[1].el.L*m[1].me.fe*w/m[1].el.k */
+    const real product_13 = p->m__1__el__L * p->m__1__me__fe * w / p->m__1__el__k;
+
+    /* m[1].el.L*m[1].wh.fs*w/(m[1].ge.N*m[1].el.k) */
+    const real product_14 = p->m__1__el__L * p->m__1__wh__fs * w / p->m__1__ge__N / p->m__1__el__k;
+
+    bound_compute_r1_w1(c, Re_times_fe_over_k, product, product_2, product_11, product_12);
+    bound_compute_r1_w2(c, p, w, product, product_2, product_5, product_6, product_7);
+    bound_compute_r1_w3_to_r1_w6(c, Re_times_fe_over_k, product, product_2, product_11, product_12,
+            product_13, product_14);
+
+    /* khepera.bg:17: r1_w7: factor of m[1].wh.ws */
+    c->r1_w7_m__1__wh__ws = product / REAL(146.0);
+
+    bound_compute_r1_w8(c, p, w, Re_times_fe_over_k, product, product_2, product_5, product_6,
+            product_7);
+
+    /* khepera.bg:17: r1_w9: factor of m[1].me.we */
     c->r1_w9_m__1__me__we = Re_times_fe_over_k / REAL(365.0);
 
     /* r1_w9: factor of m[1].me.we' */
@@ -1059,8 +1082,32 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r1_w10: factor of m[1].wh.ws' */
     c->r1_w10_w1_m__1__wh__ws = product_14 / REAL(365.0);
+}
 
-    /* r3_w1: factor of Fx[2] */
+/* filter: coefficients */
+static void bound_compute_filter(khepera_threshold_coefficients *c, real pole, real turn)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn_2 / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = turn_2 / REAL(6.0);
+}
+
+/* r3_w1: coefficients */
+static void bound_compute_r3_w1(khepera_threshold_coefficients *c, real Re_times_fe_over_k_2,
+        real product_3, real product_4, real product_15, real product_16)
+{
+    /* khepera.bg:17: r3_w1: factor of Fx[2] */
     c->r3_w1_Fx__2 = product_4 / REAL(20.0);
 
     /* r3_w1: factor of m[2].wh.ws */
@@ -1074,8 +1121,13 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r3_w1: factor of m[2].me.we' */
     c->r3_w1_w1_m__2__me__we = product_16 / REAL(20.0);
+}
 
-    /* r3_w2: factor of m[2].me.we */
+/* r3_w2: coefficients */
+static void bound_compute_r3_w2(khepera_threshold_coefficients *c, const khepera_parameters *p,
+        real w, real product_3, real product_4, real product_8, real product_9, real product_10)
+{
+    /* khepera.bg:17: r3_w2: factor of m[2].me.we */
     c->r3_w2_m__2__me__we = p->m__2__el__k
             * (p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k / p->m__2__el__k
             - REAL(1.0)) / REAL(50.0);
@@ -1105,20 +1157,13 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r3_w2: factor of m[2].wh.ws'' */
     c->r3_w2_w2_m__2__wh__ws = product_9 / REAL(50.0);
+}
 
-    /* r3_w3: factor of m[2].me.we */
-    c->r3_w3_m__2__me__we = Re_times_fe_over_k_2 / REAL(10.0);
-
-    /* r3_w3: factor of m[2].me.we' */
-    c->r3_w3_w1_m__2__me__we = product_17 / REAL(10.0);
-
-    /* r3_w4: factor of m[2].wh.ws */
-    c->r3_w4_m__2__wh__ws = product_3 / REAL(10.0);
-
-    /* r3_w4: factor of m[2].wh.ws' */
-    c->r3_w4_w1_m__2__wh__ws = product_18 / REAL(10.0);
-
-    /* r3_w5: factor of m[2].me.we */
+/* r3_w5: coefficients */
+static void bound_compute_r3_w5(khepera_threshold_coefficients *c, real Re_times_fe_over_k_2,
+        real product_3, real product_4, real product_15, real product_16)
+{
+    /* khepera.bg:17: r3_w5: factor of m[2].me.we */
     c->r3_w5_m__2__me__we = Re_times_fe_over_k_2 / REAL(730.0);
 
     /* r3_w5: factor of m[2].me.we' */
@@ -1132,14 +1177,37 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r3_w5: factor of Fx[2] */
     c->r3_w5_Fx__2 = product_4 / REAL(730.0);
+}
 
-    /* r3_w6: factor of m[2].me.we */
+/* r3_w3 to r3_w6: coefficients */
+static void bound_compute_r3_w3_to_r3_w6(khepera_threshold_coefficients *c,
+        real Re_times_fe_over_k_2, real product_3, real product_4, real product_15, real product_16,
+        real product_17, real product_18)
+{
+    /* khepera.bg:17: r3_w3: factor of m[2].me.we */
+    c->r3_w3_m__2__me__we = Re_times_fe_over_k_2 / REAL(10.0);
+
+    /* r3_w3: factor of m[2].me.we' */
+    c->r3_w3_w1_m__2__me__we = product_17 / REAL(10.0);
+
+    /* r3_w4: factor of m[2].wh.ws */
+    c->r3_w4_m__2__wh__ws = product_3 / REAL(10.0);
+
+    /* r3_w4: factor of m[2].wh.ws' */
+    c->r3_w4_w1_m__2__wh__ws = product_18 / REAL(10.0);
+
+    bound_compute_r3_w5(c, Re_times_fe_over_k_2, product_3, product_4, product_15, product_16);
+
+    /* khepera.bg:17: r3_w6: factor of m[2].me.we */
     c->r3_w6_m__2__me__we = Re_times_fe_over_k_2 / REAL(146.0);
+}
 
-    /* r3_w7: factor of m[2].wh.ws */
-    c->r3_w7_m__2__wh__ws = product_3 / REAL(146.0);
-
-    /* r3_w8: factor of m[2].me.we */
+/* r3_w8: coefficients */
+static void bound_compute_r3_w8(khepera_threshold_coefficients *c, const khepera_parameters *p,
+        real w, real Re_times_fe_over_k_2, real product_3, real product_4, real product_8,
+        real product_9, real product_10)
+{
+    /* khepera.bg:17: r3_w8: factor of m[2].me.we */
     c->r3_w8_m__2__me__we = Re_times_fe_over_k_2 / REAL(1825.0);
 
     /* r3_w8: factor of m[2].me.we' */
@@ -1172,8 +1240,54 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r3_w8: factor of Fx[2]' */
     c->r3_w8_w1_Fx__2 = product_10 / REAL(1825.0);
+}
 
-    /* r3_w9: factor of m[2].me.we */
+/* r3: coefficients */
+static void bound_compute_r3(khepera_threshold_coefficients *c, const khepera_parameters *p, real w)
+{
+    /* khepera.bg:17: m[2].el.Re*m[2].me.fe/m[2].el.k */
+    const real Re_times_fe_over_k_2 = p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k;
+
+    /* m[2].el.Re*m[2].wh.fs/(m[2].ge.N*m[2].el.k) */
+    const real product_3 = p->m__2__el__Re * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k;
+
+    /* m[2].el.Re*m[2].wh.R/(m[2].ge.N*m[2].el.k) */
+    const real product_4 = p->m__2__el__Re * p->m__2__wh__R / p->m__2__ge__N / p->m__2__el__k;
+
+    /* m[2].el.L*m[2].me.Je*w^2/m[2].el.k */
+    const real product_8 = p->m__2__el__L * p->m__2__me__Je * w * w / p->m__2__el__k;
+
+    /* m[2].el.L*m[2].wh.Js*w^2/(m[2].ge.N*m[2].el.k) */
+    const real product_9 = p->m__2__el__L * p->m__2__wh__Js * w * w / p->m__2__ge__N
+            / p->m__2__el__k;
+
+    /* m[2].el.L*m[2].wh.R*w/(m[2].ge.N*m[2].el.k) */
+    const real product_10 = p->m__2__el__L * p->m__2__wh__R * w / p->m__2__ge__N / p->m__2__el__k;
+
+    /* m[2].el.Re*m[2].wh.Js*w/(m[2].ge.N*m[2].el.k) */
+    const real product_15 = p->m__2__el__Re * p->m__2__wh__Js * w / p->m__2__ge__N / p->m__2__el__k;
+
+    /* m[2].el.Re*m[2].me.Je*w/m[2].el.k */
+    const real product_16 = p->m__2__el__Re * p->m__2__me__Je * w / p->m__2__el__k;
+
+    /* m[2].el.L*m[2].me.fe*w/m[2].el.k */
+    const real product_17 = p->m__2__el__L * p->m__2__me__fe * w / p->m__2__el__k;
+
+    /* m[2].el.L*m[2].wh.fs*w/(m[2].ge.N*m[2].el.k) */
+    const real product_18 = p->m__2__el__L * p->m__2__wh__fs * w / p->m__2__ge__N / p->m__2__el__k;
+
+    bound_compute_r3_w1(c, Re_times_fe_over_k_2, product_3, product_4, product_15, product_16);
+    bound_compute_r3_w2(c, p, w, product_3, product_4, product_8, product_9, product_10);
+    bound_compute_r3_w3_to_r3_w6(c, Re_times_fe_over_k_2, product_3, product_4, product_15,
+            product_16, product_17, product_18);
+
+    /* khepera.bg:17: r3_w7: factor of m[2].wh.ws */
+    c->r3_w7_m__2__wh__ws = product_3 / REAL(146.0);
+
+    bound_compute_r3_w8(c, p, w, Re_times_fe_over_k_2, product_3, product_4, product_8, product_9,
+            product_10);
+
+    /* khepera.bg:17: r3_w9: factor of m[2].me.we */
     c->r3_w9_m__2__me__we = Re_times_fe_over_k_2 / REAL(365.0);
 
     /* r3_w9: factor of m[2].me.we' */
@@ -1184,6 +1298,27 @@ static void bound_compute_coefficients(khepera_threshold_coefficients *c,
 
     /* r3_w10: factor of m[2].wh.ws' */
     c->r3_w10_w1_m__2__wh__ws = product_18 / REAL(365.0);
+}
+
+/* The coefficients, from the parameters. */
+static void bound_compute_coefficients(khepera_threshold_coefficients *c,
+        const khepera_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    bound_compute_r1(c, p, w);
+    bound_compute_filter(c, pole, turn);
+    bound_compute_r3(c, p, w);
 }
 
 static bool bound_coefficients_are_finite(const khepera_threshold_coefficients *c)
@@ -1243,24 +1378,10 @@ khepera_status khepera_threshold_configure(
     return KHEPERA_OK;
 }
 
-/* r1 on one sample.
- * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
-static void bound_r1(
-    const khepera_threshold_coefficients *c, khepera_threshold_memory *x, const khepera_samples *s, real *r)
+/* what the tolerance of m[1].el.Re can do */
+static real bound_r1_w1(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, real w1_a, real w1_b)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r1_w1_s3 = REAL(0.0);
-        x->r1_w1_s2 = REAL(0.0);
-        x->r1_w1_s1 = REAL(0.0);
-    }
-
-    /* r1_w1: a stage of the filter; on the first sample it is at rest */
-    const real w1_a = first ? -c->b : c->a;
-    const real w1_b = first ? REAL(1.0) : c->b;
-
     /* r1_w1: terms of order 0 */
     const real w1_g0 = c->r1_w1_Fx__1 * s->Fx__1 + c->r1_w1_m__1__wh__ws * s->m__1__wh__ws
         + c->r1_w1_m__1__me__we * s->m__1__me__we;
@@ -1293,6 +1414,13 @@ static void bound_r1(
     /* what the tolerance of m[1].el.Re can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* what the tolerance of m[1].el.k can do */
+static real bound_r1_w2(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w2_s3 = REAL(0.0);
@@ -1341,6 +1469,13 @@ static void bound_r1(
     /* what the tolerance of m[1].el.k can do */
     const real w2 = w2_y1 - w2_e1;
 
+    return w2;
+}
+
+/* what the tolerance of m[1].me.fe can do */
+static real bound_r1_w3(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w3_s3 = REAL(0.0);
@@ -1378,6 +1513,13 @@ static void bound_r1(
     /* what the tolerance of m[1].me.fe can do */
     const real w3 = w3_y1;
 
+    return w3;
+}
+
+/* what the tolerance of m[1].wh.fs can do */
+static real bound_r1_w4(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w4_s3 = REAL(0.0);
@@ -1415,6 +1557,13 @@ static void bound_r1(
     /* what the tolerance of m[1].wh.fs can do */
     const real w4 = w4_y1;
 
+    return w4;
+}
+
+/* what the tolerances of m[1].el.Re and m[1].el.k can do together */
+static real bound_r1_w5(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w5_s3 = REAL(0.0);
@@ -1454,6 +1603,13 @@ static void bound_r1(
     /* what the tolerances of m[1].el.Re and m[1].el.k can do together */
     const real w5 = w5_y1;
 
+    return w5;
+}
+
+/* what the tolerances of m[1].el.Re and m[1].me.fe can do together */
+static real bound_r1_w6(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w6_s3 = REAL(0.0);
@@ -1479,6 +1635,13 @@ static void bound_r1(
     /* what the tolerances of m[1].el.Re and m[1].me.fe can do together */
     const real w6 = w6_y1;
 
+    return w6;
+}
+
+/* what the tolerances of m[1].el.Re and m[1].wh.fs can do together */
+static real bound_r1_w7(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w7_s3 = REAL(0.0);
@@ -1504,6 +1667,13 @@ static void bound_r1(
     /* what the tolerances of m[1].el.Re and m[1].wh.fs can do together */
     const real w7 = w7_y1;
 
+    return w7;
+}
+
+/* second order of what the tolerance of m[1].el.k can do */
+static real bound_r1_w8(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w8_s3 = REAL(0.0);
@@ -1552,6 +1722,13 @@ static void bound_r1(
     /* second order of what the tolerance of m[1].el.k can do */
     const real w8 = w8_y1 - w8_e1;
 
+    return w8;
+}
+
+/* what the tolerances of m[1].el.k and m[1].me.fe can do together */
+static real bound_r1_w9(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w9_s3 = REAL(0.0);
@@ -1589,6 +1766,13 @@ static void bound_r1(
     /* what the tolerances of m[1].el.k and m[1].me.fe can do together */
     const real w9 = w9_y1;
 
+    return w9;
+}
+
+/* what the tolerances of m[1].el.k and m[1].wh.fs can do together */
+static real bound_r1_w10(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w10_s3 = REAL(0.0);
@@ -1626,6 +1810,38 @@ static void bound_r1(
     /* what the tolerances of m[1].el.k and m[1].wh.fs can do together */
     const real w10 = w10_y1;
 
+    return w10;
+}
+
+/* r1 on one sample.
+ * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
+static void bound_r1(
+    const khepera_threshold_coefficients *c, khepera_threshold_memory *x, const khepera_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_w1_s3 = REAL(0.0);
+        x->r1_w1_s2 = REAL(0.0);
+        x->r1_w1_s1 = REAL(0.0);
+    }
+
+    /* r1_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    const real w1 = bound_r1_w1(c, x, s, w1_a, w1_b);
+    const real w2 = bound_r1_w2(c, x, s, first, w1_a, w1_b);
+    const real w3 = bound_r1_w3(c, x, s, first, w1_a, w1_b);
+    const real w4 = bound_r1_w4(c, x, s, first, w1_a, w1_b);
+    const real w5 = bound_r1_w5(c, x, s, first, w1_a, w1_b);
+    const real w6 = bound_r1_w6(c, x, s, first, w1_a, w1_b);
+    const real w7 = bound_r1_w7(c, x, s, first, w1_a, w1_b);
+    const real w8 = bound_r1_w8(c, x, s, first, w1_a, w1_b);
+    const real w9 = bound_r1_w9(c, x, s, first, w1_a, w1_b);
+    const real w10 = bound_r1_w10(c, x, s, first, w1_a, w1_b);
+
     r[KHEPERA_R1] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
         + MATH(fabs)(w10);
@@ -1643,24 +1859,10 @@ static void bound_r2(
     r[KHEPERA_R2] = REAL(0.0);
 }
 
-/* r3 on one sample.
- * khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
-static void bound_r3(
-    const khepera_threshold_coefficients *c, khepera_threshold_memory *x, const khepera_samples *s, real *r)
+/* what the tolerance of m[2].el.Re can do */
+static real bound_r3_w1(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, real w1_a, real w1_b)
 {
-    const bool first = x->youngest == 0u && x->age[2] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r3_w1_s3 = REAL(0.0);
-        x->r3_w1_s2 = REAL(0.0);
-        x->r3_w1_s1 = REAL(0.0);
-    }
-
-    /* r3_w1: a stage of the filter; on the first sample it is at rest */
-    const real w1_a = first ? -c->b : c->a;
-    const real w1_b = first ? REAL(1.0) : c->b;
-
     /* r3_w1: terms of order 0 */
     const real w1_g0 = c->r3_w1_Fx__2 * s->Fx__2 + c->r3_w1_m__2__wh__ws * s->m__2__wh__ws
         + c->r3_w1_m__2__me__we * s->m__2__me__we;
@@ -1693,6 +1895,13 @@ static void bound_r3(
     /* what the tolerance of m[2].el.Re can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* what the tolerance of m[2].el.k can do */
+static real bound_r3_w2(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w2_s3 = REAL(0.0);
@@ -1741,6 +1950,13 @@ static void bound_r3(
     /* what the tolerance of m[2].el.k can do */
     const real w2 = w2_y1 - w2_e1;
 
+    return w2;
+}
+
+/* what the tolerance of m[2].me.fe can do */
+static real bound_r3_w3(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w3_s3 = REAL(0.0);
@@ -1778,6 +1994,13 @@ static void bound_r3(
     /* what the tolerance of m[2].me.fe can do */
     const real w3 = w3_y1;
 
+    return w3;
+}
+
+/* what the tolerance of m[2].wh.fs can do */
+static real bound_r3_w4(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w4_s3 = REAL(0.0);
@@ -1815,6 +2038,13 @@ static void bound_r3(
     /* what the tolerance of m[2].wh.fs can do */
     const real w4 = w4_y1;
 
+    return w4;
+}
+
+/* what the tolerances of m[2].el.Re and m[2].el.k can do together */
+static real bound_r3_w5(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w5_s3 = REAL(0.0);
@@ -1854,6 +2084,13 @@ static void bound_r3(
     /* what the tolerances of m[2].el.Re and m[2].el.k can do together */
     const real w5 = w5_y1;
 
+    return w5;
+}
+
+/* what the tolerances of m[2].el.Re and m[2].me.fe can do together */
+static real bound_r3_w6(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w6_s3 = REAL(0.0);
@@ -1879,6 +2116,13 @@ static void bound_r3(
     /* what the tolerances of m[2].el.Re and m[2].me.fe can do together */
     const real w6 = w6_y1;
 
+    return w6;
+}
+
+/* what the tolerances of m[2].el.Re and m[2].wh.fs can do together */
+static real bound_r3_w7(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w7_s3 = REAL(0.0);
@@ -1904,6 +2148,13 @@ static void bound_r3(
     /* what the tolerances of m[2].el.Re and m[2].wh.fs can do together */
     const real w7 = w7_y1;
 
+    return w7;
+}
+
+/* second order of what the tolerance of m[2].el.k can do */
+static real bound_r3_w8(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w8_s3 = REAL(0.0);
@@ -1952,6 +2203,13 @@ static void bound_r3(
     /* second order of what the tolerance of m[2].el.k can do */
     const real w8 = w8_y1 - w8_e1;
 
+    return w8;
+}
+
+/* what the tolerances of m[2].el.k and m[2].me.fe can do together */
+static real bound_r3_w9(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w9_s3 = REAL(0.0);
@@ -1989,6 +2247,13 @@ static void bound_r3(
     /* what the tolerances of m[2].el.k and m[2].me.fe can do together */
     const real w9 = w9_y1;
 
+    return w9;
+}
+
+/* what the tolerances of m[2].el.k and m[2].wh.fs can do together */
+static real bound_r3_w10(const khepera_threshold_coefficients *c, khepera_threshold_memory *x,
+        const khepera_samples *s, bool first, real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w10_s3 = REAL(0.0);
@@ -2025,6 +2290,38 @@ static void bound_r3(
 
     /* what the tolerances of m[2].el.k and m[2].wh.fs can do together */
     const real w10 = w10_y1;
+
+    return w10;
+}
+
+/* r3 on one sample.
+ * khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
+static void bound_r3(
+    const khepera_threshold_coefficients *c, khepera_threshold_memory *x, const khepera_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[2] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r3_w1_s3 = REAL(0.0);
+        x->r3_w1_s2 = REAL(0.0);
+        x->r3_w1_s1 = REAL(0.0);
+    }
+
+    /* r3_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    const real w1 = bound_r3_w1(c, x, s, w1_a, w1_b);
+    const real w2 = bound_r3_w2(c, x, s, first, w1_a, w1_b);
+    const real w3 = bound_r3_w3(c, x, s, first, w1_a, w1_b);
+    const real w4 = bound_r3_w4(c, x, s, first, w1_a, w1_b);
+    const real w5 = bound_r3_w5(c, x, s, first, w1_a, w1_b);
+    const real w6 = bound_r3_w6(c, x, s, first, w1_a, w1_b);
+    const real w7 = bound_r3_w7(c, x, s, first, w1_a, w1_b);
+    const real w8 = bound_r3_w8(c, x, s, first, w1_a, w1_b);
+    const real w9 = bound_r3_w9(c, x, s, first, w1_a, w1_b);
+    const real w10 = bound_r3_w10(c, x, s, first, w1_a, w1_b);
 
     r[KHEPERA_R3] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
@@ -2221,12 +2518,27 @@ static void forget_sums(khepera_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined KHEPERA_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const khepera_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     khepera_diagnosis *d, const khepera_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -2318,6 +2630,7 @@ void khepera_clear(khepera_diagnosis *diagnosis)
     diagnosis->fault_class = KHEPERA_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void khepera_diagnosis_reset(khepera_diagnosis *diagnosis)
@@ -2335,6 +2648,40 @@ void khepera_diagnosis_reset(khepera_diagnosis *diagnosis)
     khepera_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const khepera_limit *limits, const real *bounds, const khepera_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(khepera_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == KHEPERA_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = KHEPERA_BLIND;
+    }
+}
+
 bool khepera_diagnose(
     khepera_diagnosis *diagnosis,
     const khepera_limit *limits,
@@ -2349,6 +2696,10 @@ bool khepera_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -2360,13 +2711,9 @@ bool khepera_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == KHEPERA_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = KHEPERA_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == KHEPERA_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == KHEPERA_ALARM;
     }
     if (fresh) {

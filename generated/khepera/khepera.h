@@ -516,6 +516,7 @@ typedef struct khepera_diagnosis {
     int16_t fault_class; /* the one that is left, or KHEPERA_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     khepera_real above[KHEPERA_RESIDUALS];
     khepera_real below[KHEPERA_RESIDUALS];
     khepera_real louder[KHEPERA_RESIDUALS];

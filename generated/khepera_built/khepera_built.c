@@ -4,6 +4,7 @@
 #ifndef KHEPERA_BUILT_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -130,6 +131,92 @@ const khepera_built_coefficients khepera_built_nominal_coefficients = {
     654u                           /* the longest of these */
 };
 
+/* r1: coefficients */
+static void compute_r1(khepera_built_coefficients *c, const khepera_built_parameters *p, real w)
+{
+    /* khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2 */
+    const real sum = p->m__1__fe + p->m__1__fs / p->m__1__ge__N / p->m__1__ge__N;
+
+    /* m[1].Je + m[1].Js/m[1].ge.N^2 */
+    const real sum_2 = p->m__1__Je + p->m__1__Js / p->m__1__ge__N / p->m__1__ge__N;
+
+    /* m[1].el.L*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k */
+    const real product = p->m__1__el__L * sum / p->m__1__el__k;
+
+    /* m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)/m[1].el.k */
+    const real product_2 = p->m__1__el__Re * sum_2 / p->m__1__el__k;
+
+    /* r1: factor of m[1].motor': m[1].el.k + m[1].el.Re*(m[1].fe +
+     * m[1].fs/m[1].ge.N^2)/m[1].el.k */
+    c->r1_m__1__motor_1 = p->m__1__el__k + p->m__1__el__Re * sum / p->m__1__el__k;
+
+    /* r1: factor of Fx[1]: m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    c->r1_Fx__1 = p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* r1: factor of m[1].motor'' */
+    c->r1_w2_m__1__motor = (-product - product_2) * w;
+
+    /* r1: factor of m[1].motor''' */
+    c->r1_w3_m__1__motor = p->m__1__el__L * sum_2 * w * w / p->m__1__el__k;
+
+    /* r1: factor of Fx[1]' */
+    c->r1_w1_Fx__1 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
+}
+
+/* filter: coefficients */
+static void compute_filter(khepera_built_coefficients *c, real pole, real turn, real sum_5)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * sum_5;
+
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = turn_2 / REAL(6.0);
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn_2 / REAL(12.0);
+
+    /* filter: 3 * (w*sample_time)^2/12 */
+    c->bend3 = REAL(0.25) * turn_2;
+}
+
+/* r2: coefficients */
+static void compute_r2(khepera_built_coefficients *c, const khepera_built_parameters *p, real w)
+{
+    /* khepera.bg:17: m[2].fe + m[2].fs/m[2].ge.N^2 */
+    const real sum_3 = p->m__2__fe + p->m__2__fs / p->m__2__ge__N / p->m__2__ge__N;
+
+    /* m[2].Je + m[2].Js/m[2].ge.N^2 */
+    const real sum_4 = p->m__2__Je + p->m__2__Js / p->m__2__ge__N / p->m__2__ge__N;
+
+    /* m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k */
+    const real product_3 = p->m__2__el__L * sum_3 / p->m__2__el__k;
+
+    /* m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)/m[2].el.k */
+    const real product_4 = p->m__2__el__Re * sum_4 / p->m__2__el__k;
+
+    /* r2: factor of m[2].motor': m[2].el.k + m[2].el.Re*(m[2].fe +
+     * m[2].fs/m[2].ge.N^2)/m[2].el.k */
+    c->r2_m__2__motor_1 = p->m__2__el__k + p->m__2__el__Re * sum_3 / p->m__2__el__k;
+
+    /* r2: factor of Fx[2]: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    c->r2_Fx__2 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* r2: factor of m[2].motor'' */
+    c->r2_w2_m__2__motor = (-product_3 - product_4) * w;
+
+    /* r2: factor of m[2].motor''' */
+    c->r2_w3_m__2__motor = p->m__2__el__L * sum_4 * w * w / p->m__2__el__k;
+
+    /* r2: factor of Fx[2]' */
+    c->r2_w1_Fx__2 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
+}
+
 /* The coefficients, from the parameters. */
 static void compute_coefficients(khepera_built_coefficients *c, const khepera_built_parameters *p,
         real sample_time, real bandwidth)
@@ -146,86 +233,16 @@ static void compute_coefficients(khepera_built_coefficients *c, const khepera_bu
     /* w of the filter 1/(1 + D/w) */
     const real w = turn / sample_time;
 
-    /* khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2 */
-    const real sum = p->m__1__fe + p->m__1__fs / p->m__1__ge__N / p->m__1__ge__N;
-
-    /* m[1].Je + m[1].Js/m[1].ge.N^2 */
-    const real sum_2 = p->m__1__Je + p->m__1__Js / p->m__1__ge__N / p->m__1__ge__N;
-
-    /* m[1].el.L*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k */
-    const real product = p->m__1__el__L * sum / p->m__1__el__k;
-
-    /* m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)/m[1].el.k */
-    const real product_2 = p->m__1__el__Re * sum_2 / p->m__1__el__k;
-
-    /* m[2].fe + m[2].fs/m[2].ge.N^2 */
-    const real sum_3 = p->m__2__fe + p->m__2__fs / p->m__2__ge__N / p->m__2__ge__N;
-
-    /* m[2].Je + m[2].Js/m[2].ge.N^2 */
-    const real sum_4 = p->m__2__Je + p->m__2__Js / p->m__2__ge__N / p->m__2__ge__N;
-
-    /* m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k */
-    const real product_3 = p->m__2__el__L * sum_3 / p->m__2__el__k;
-
-    /* m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)/m[2].el.k */
-    const real product_4 = p->m__2__el__Re * sum_4 / p->m__2__el__k;
-
     /* 1 - pole */
     const real sum_5 = REAL(1.0) - pole;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: r1: factor of m[1].motor': m[1].el.k + m[1].el.Re*(m[1].fe +
-     * m[1].fs/m[1].ge.N^2)/m[1].el.k */
-    c->r1_m__1__motor_1 = p->m__1__el__k + p->m__1__el__Re * sum / p->m__1__el__k;
-
-    /* r1: factor of Fx[1]: m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
-    c->r1_Fx__1 = p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
 
     /* speed of m[1].motor for one count */
     c->m__1__motor_gain = REAL(884279719003555.0) * (REAL(1.0)
             - REAL(0.5) * sum_5) * w / REAL(3377699720527872.0);
 
-    /* filter: what is left of a memory a sample later */
-    c->a = pole;
-
-    /* filter: weight of a sample, new and a sample later */
-    c->b = REAL(0.5) * sum_5;
-
-    /* khepera.bg:17: r1: factor of m[1].motor'' */
-    c->r1_w2_m__1__motor = (-product - product_2) * w;
-
-    /* r1: factor of m[1].motor''' */
-    c->r1_w3_m__1__motor = p->m__1__el__L * sum_2 * w * w / p->m__1__el__k;
-
-    /* r1: factor of Fx[1]' */
-    c->r1_w1_Fx__1 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
-
-    /* filter: 2 * (w*sample_time)^2/12 */
-    c->bend2 = turn_2 / REAL(6.0);
-
-    /* filter: 1 * (w*sample_time)^2/12 */
-    c->bend1 = turn_2 / REAL(12.0);
-
-    /* filter: 3 * (w*sample_time)^2/12 */
-    c->bend3 = REAL(0.25) * turn_2;
-
-    /* khepera.bg:17: r2: factor of m[2].motor': m[2].el.k + m[2].el.Re*(m[2].fe +
-     * m[2].fs/m[2].ge.N^2)/m[2].el.k */
-    c->r2_m__2__motor_1 = p->m__2__el__k + p->m__2__el__Re * sum_3 / p->m__2__el__k;
-
-    /* r2: factor of Fx[2]: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
-    c->r2_Fx__2 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
-
-    /* r2: factor of m[2].motor'' */
-    c->r2_w2_m__2__motor = (-product_3 - product_4) * w;
-
-    /* r2: factor of m[2].motor''' */
-    c->r2_w3_m__2__motor = p->m__2__el__L * sum_4 * w * w / p->m__2__el__k;
-
-    /* r2: factor of Fx[2]' */
-    c->r2_w1_Fx__2 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
+    compute_r1(c, p, w);
+    compute_filter(c, pole, turn, sum_5);
+    compute_r2(c, p, w);
 }
 
 static bool coefficients_are_finite(const khepera_built_coefficients *c)
@@ -264,49 +281,11 @@ khepera_built_status khepera_built_configure(
     return KHEPERA_BUILT_OK;
 }
 
-/* r1 on one sample.
- * khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
- * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
- * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
- * m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N */
-static void run_r1(
-    const khepera_built_coefficients *c, khepera_built_memory *x, const khepera_built_samples *s, real *r)
+/* stage 1 */
+static real run_r1_y1(const khepera_built_coefficients *c, khepera_built_memory *x,
+        const khepera_built_samples *s, real a, real b, real m__1__motor_speed_2, real n1, real e1,
+        real n2, real e2)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-    const khepera_built_encoders *e = &x->e;
-
-    count_on(&x->e.m__1__motor, s->m__1__motor, first);
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r1_m__1__motor_speed = REAL(0.0);
-        x->r1_s4 = REAL(0.0);
-        x->r1_s3 = REAL(0.0);
-        x->r1_s2 = REAL(0.0);
-        x->r1_s1 = REAL(0.0);
-    }
-
-    /* a stage of the filter; on the first sample it is at rest */
-    const real a = first ? -c->b : c->a;
-    const real b = first ? REAL(1.0) : c->b;
-
-    /* filtered speed of m[1].motor */
-    const real m__1__motor_speed_2 = c->a * x->r1_m__1__motor_speed
-        + c->m__1__motor_gain * (real)e->m__1__motor.increment;
-    x->r1_m__1__motor_speed = m__1__motor_speed_2;
-
-    /* encoders, order 1 */
-    const real n1 = -c->r1_m__1__motor_1 * m__1__motor_speed_2;
-
-    /* error of order 1 */
-    const real e1 = c->bend2 * n1;
-
-    /* encoders, order 2 */
-    const real n2 = c->r1_w2_m__1__motor * m__1__motor_speed_2;
-
-    /* error of order 2 */
-    const real e2 = c->bend1 * n2;
-
     /* encoders, order 3 */
     const real n3 = -c->r1_w3_m__1__motor * m__1__motor_speed_2;
 
@@ -359,52 +338,62 @@ static void run_r1(
     const real y1 = x->r1_s1 + b * u1;
     x->r1_s1 = a * y1 + b * u1;
 
-    r[KHEPERA_BUILT_R1] = y1 - e2;
+    return y1;
 }
 
-/* r2 on one sample.
- * khepera.bg:17: r2 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
- * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
- * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
- * m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N */
-static void run_r2(
+/* r1 on one sample.
+ * khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+ * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+ * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
+ * m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N */
+static void run_r1(
     const khepera_built_coefficients *c, khepera_built_memory *x, const khepera_built_samples *s, real *r)
 {
-    const bool first = x->youngest == 0u && x->age[1] == 0u;
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
     const khepera_built_encoders *e = &x->e;
 
-    count_on(&x->e.m__2__motor, s->m__2__motor, first);
+    count_on(&x->e.m__1__motor, s->m__1__motor, first);
 
     if (first) {
         /* nothing is remembered yet */
-        x->r2_m__2__motor_speed = REAL(0.0);
-        x->r2_s4 = REAL(0.0);
-        x->r2_s3 = REAL(0.0);
-        x->r2_s2 = REAL(0.0);
-        x->r2_s1 = REAL(0.0);
+        x->r1_m__1__motor_speed = REAL(0.0);
+        x->r1_s4 = REAL(0.0);
+        x->r1_s3 = REAL(0.0);
+        x->r1_s2 = REAL(0.0);
+        x->r1_s1 = REAL(0.0);
     }
 
     /* a stage of the filter; on the first sample it is at rest */
     const real a = first ? -c->b : c->a;
     const real b = first ? REAL(1.0) : c->b;
 
-    /* filtered speed of m[2].motor */
-    const real m__2__motor_speed_2 = c->a * x->r2_m__2__motor_speed
-        + c->m__1__motor_gain * (real)e->m__2__motor.increment;
-    x->r2_m__2__motor_speed = m__2__motor_speed_2;
+    /* filtered speed of m[1].motor */
+    const real m__1__motor_speed_2 = c->a * x->r1_m__1__motor_speed
+        + c->m__1__motor_gain * (real)e->m__1__motor.increment;
+    x->r1_m__1__motor_speed = m__1__motor_speed_2;
 
     /* encoders, order 1 */
-    const real n1 = -c->r2_m__2__motor_1 * m__2__motor_speed_2;
+    const real n1 = -c->r1_m__1__motor_1 * m__1__motor_speed_2;
 
     /* error of order 1 */
     const real e1 = c->bend2 * n1;
 
     /* encoders, order 2 */
-    const real n2 = c->r2_w2_m__2__motor * m__2__motor_speed_2;
+    const real n2 = c->r1_w2_m__1__motor * m__1__motor_speed_2;
 
     /* error of order 2 */
     const real e2 = c->bend1 * n2;
 
+    const real y1 = run_r1_y1(c, x, s, a, b, m__1__motor_speed_2, n1, e1, n2, e2);
+
+    r[KHEPERA_BUILT_R1] = y1 - e2;
+}
+
+/* stage 1 */
+static real run_r2_y1(const khepera_built_coefficients *c, khepera_built_memory *x,
+        const khepera_built_samples *s, real a, real b, real m__2__motor_speed_2, real n1, real e1,
+        real n2, real e2)
+{
     /* encoders, order 3 */
     const real n3 = -c->r2_w3_m__2__motor * m__2__motor_speed_2;
 
@@ -456,6 +445,54 @@ static void run_r2(
     const real u1 = y2 + p1_1 + e2;
     const real y1 = x->r2_s1 + b * u1;
     x->r2_s1 = a * y1 + b * u1;
+
+    return y1;
+}
+
+/* r2 on one sample.
+ * khepera.bg:17: r2 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+ * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+ * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
+ * m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N */
+static void run_r2(
+    const khepera_built_coefficients *c, khepera_built_memory *x, const khepera_built_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+    const khepera_built_encoders *e = &x->e;
+
+    count_on(&x->e.m__2__motor, s->m__2__motor, first);
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_m__2__motor_speed = REAL(0.0);
+        x->r2_s4 = REAL(0.0);
+        x->r2_s3 = REAL(0.0);
+        x->r2_s2 = REAL(0.0);
+        x->r2_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* filtered speed of m[2].motor */
+    const real m__2__motor_speed_2 = c->a * x->r2_m__2__motor_speed
+        + c->m__1__motor_gain * (real)e->m__2__motor.increment;
+    x->r2_m__2__motor_speed = m__2__motor_speed_2;
+
+    /* encoders, order 1 */
+    const real n1 = -c->r2_m__2__motor_1 * m__2__motor_speed_2;
+
+    /* error of order 1 */
+    const real e1 = c->bend2 * n1;
+
+    /* encoders, order 2 */
+    const real n2 = c->r2_w2_m__2__motor * m__2__motor_speed_2;
+
+    /* error of order 2 */
+    const real e2 = c->bend1 * n2;
+
+    const real y1 = run_r2_y1(c, x, s, a, b, m__2__motor_speed_2, n1, e1, n2, e2);
 
     r[KHEPERA_BUILT_R2] = y1 - e2;
 }
@@ -647,65 +684,13 @@ const khepera_built_threshold_coefficients khepera_built_threshold_nominal_coeff
     654u                            /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
-        const khepera_built_parameters *p, real sample_time, real bandwidth)
+/* m[1].fe*m[1].el.Re/m[1].el.k; ...; m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)*w/m[1].el.k */
+static void bound_compute_fe_times_Re_over_k_to_product_14(khepera_built_threshold_coefficients *c,
+        const khepera_built_parameters *p, real w, real sum_2, real *fe_times_Re_over_k_out,
+        real *product_9_out, real *product_10_out, real *product_11_out, real *product_12_out,
+        real *product_13_out, real *product_14_out)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
-    /* khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2 */
-    const real sum = p->m__1__fe + p->m__1__fs / p->m__1__ge__N / p->m__1__ge__N;
-
-    /* m[1].Je + m[1].Js/m[1].ge.N^2 */
-    const real sum_2 = p->m__1__Je + p->m__1__Js / p->m__1__ge__N / p->m__1__ge__N;
-
-    /* m[1].el.Re*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k */
-    const real product = p->m__1__el__Re * sum / p->m__1__el__k;
-
-    /* m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
-    const real product_2 = p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
-
-    /* m[2].fe + m[2].fs/m[2].ge.N^2 */
-    const real sum_3 = p->m__2__fe + p->m__2__fs / p->m__2__ge__N / p->m__2__ge__N;
-
-    /* m[2].Je + m[2].Js/m[2].ge.N^2 */
-    const real sum_4 = p->m__2__Je + p->m__2__Js / p->m__2__ge__N / p->m__2__ge__N;
-
-    /* m[2].el.Re*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k */
-    const real product_3 = p->m__2__el__Re * sum_3 / p->m__2__el__k;
-
-    /* m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
-    const real product_4 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
-
-    /* 1 - pole */
-    const real sum_5 = REAL(1.0) - pole;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*w^2/m[1].el.k */
-    const real product_5 = p->m__1__el__L * sum_2 * w * w / p->m__1__el__k;
-
-    /* m[1].R*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
-    const real product_6 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
-
-    /* m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*w^2/m[2].el.k */
-    const real product_7 = p->m__2__el__L * sum_4 * w * w / p->m__2__el__k;
-
-    /* m[2].R*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
-    const real product_8 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
-
-    /* m[1].fe*m[1].el.Re/m[1].el.k */
+    /* khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k */
     const real fe_times_Re_over_k = p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
 
     /* m[1].fe*m[1].el.L*w/m[1].el.k */
@@ -730,7 +715,214 @@ static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
     /* m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)*w/m[1].el.k */
     const real product_14 = p->m__1__el__Re * sum_2 * w / p->m__1__el__k;
 
-    /* m[2].fe*m[2].el.Re/m[2].el.k */
+    /* r1_w1: factor of m[1].motor' */
+    c->r1_w1_w1_m__1__motor = fe_times_Re_over_k / REAL(10.0);
+
+    /* r1_w1: factor of m[1].motor'' */
+    c->r1_w1_w2_m__1__motor = product_9 / REAL(10.0);
+
+    /* r1_w2: factor of m[1].motor'' */
+    c->r1_w2_w2_m__1__motor = product_10 / REAL(50.0);
+
+    /* r1_w2: factor of m[1].motor''' */
+    c->r1_w2_w3_m__1__motor = product_11 / REAL(50.0);
+
+    /* r1_w3: factor of m[1].motor' */
+    c->r1_w3_w1_m__1__motor = product_12 / REAL(10.0);
+
+    /* r1_w3: factor of m[1].motor'' */
+    c->r1_w3_w2_m__1__motor = product_13 / REAL(10.0);
+
+    *fe_times_Re_over_k_out = fe_times_Re_over_k;
+    *product_9_out = product_9;
+    *product_10_out = product_10;
+    *product_11_out = product_11;
+    *product_12_out = product_12;
+    *product_13_out = product_13;
+    *product_14_out = product_14;
+}
+
+/* r1_w4: coefficients */
+static void bound_compute_r1_w4(khepera_built_threshold_coefficients *c, real product,
+        real product_2, real product_14)
+{
+    /* khepera.bg:17: r1_w4: factor of Fx[1] */
+    c->r1_w4_Fx__1 = product_2 / REAL(20.0);
+
+    /* r1_w4: factor of m[1].motor' */
+    c->r1_w4_w1_m__1__motor = product / REAL(20.0);
+
+    /* r1_w4: factor of m[1].motor'' */
+    c->r1_w4_w2_m__1__motor = product_14 / REAL(20.0);
+}
+
+/* r1_w5: coefficients */
+static void bound_compute_r1_w5(khepera_built_threshold_coefficients *c,
+        const khepera_built_parameters *p, real w, real sum, real sum_2, real product_2,
+        real product_5, real product_6)
+{
+    /* khepera.bg:17: r1_w5: factor of m[1].motor' */
+    c->r1_w5_w1_m__1__motor = p->m__1__el__k
+            * (p->m__1__el__Re * sum / p->m__1__el__k / p->m__1__el__k
+            - REAL(1.0)) / REAL(50.0);
+
+    /* r1_w5: factor of m[1].motor'' */
+    c->r1_w5_w2_m__1__motor = p->m__1__el__k * w
+            * (p->m__1__el__Re * sum_2 / p->m__1__el__k / p->m__1__el__k
+            + p->m__1__el__L * sum / p->m__1__el__k / p->m__1__el__k) / REAL(50.0);
+
+    /* r1_w5: factor of m[1].motor''' */
+    c->r1_w5_w3_m__1__motor = product_5 / REAL(50.0);
+
+    /* r1_w5: factor of Fx[1] */
+    c->r1_w5_Fx__1 = product_2 / REAL(50.0);
+
+    /* r1_w5: factor of Fx[1]' */
+    c->r1_w5_w1_Fx__1 = product_6 / REAL(50.0);
+}
+
+/* r1_w10 to r1_w11: coefficients */
+static void bound_compute_r1_w10_to_r1_w11(khepera_built_threshold_coefficients *c, real product_12,
+        real product_13)
+{
+    /* khepera.bg:17: r1_w10: factor of m[1].motor' */
+    c->r1_w10_w1_m__1__motor = product_12 / REAL(142.0);
+
+    /* r1_w11: factor of m[1].motor' */
+    c->r1_w11_w1_m__1__motor = product_12 / REAL(355.0);
+
+    /* r1_w11: factor of m[1].motor'' */
+    c->r1_w11_w2_m__1__motor = product_13 / REAL(355.0);
+}
+
+/* r1_w12: coefficients */
+static void bound_compute_r1_w12(khepera_built_threshold_coefficients *c, real product,
+        real product_2, real product_14)
+{
+    /* khepera.bg:17: r1_w12: factor of m[1].motor' */
+    c->r1_w12_w1_m__1__motor = product / REAL(710.0);
+
+    /* r1_w12: factor of m[1].motor'' */
+    c->r1_w12_w2_m__1__motor = product_14 / REAL(710.0);
+
+    /* r1_w12: factor of Fx[1] */
+    c->r1_w12_Fx__1 = product_2 / REAL(710.0);
+}
+
+/* r1_w13: coefficients */
+static void bound_compute_r1_w13(khepera_built_threshold_coefficients *c,
+        const khepera_built_parameters *p, real w, real sum, real sum_2, real product,
+        real product_2, real product_5, real product_6)
+{
+    /* khepera.bg:17: r1_w13: factor of m[1].motor' */
+    c->r1_w13_w1_m__1__motor = product / REAL(1775.0);
+
+    /* r1_w13: factor of m[1].motor'' */
+    c->r1_w13_w2_m__1__motor = p->m__1__el__k * p->m__1__el__k * w
+            * (-REAL(2.0) * p->m__1__el__L * sum / p->m__1__el__k / p->m__1__el__k / p->m__1__el__k
+            - REAL(2.0) * p->m__1__el__Re * sum_2 / p->m__1__el__k / p->m__1__el__k
+                / p->m__1__el__k)
+            / REAL(3550.0);
+
+    /* r1_w13: factor of m[1].motor''' */
+    c->r1_w13_w3_m__1__motor = product_5 / REAL(1775.0);
+
+    /* r1_w13: factor of Fx[1] */
+    c->r1_w13_Fx__1 = product_2 / REAL(1775.0);
+
+    /* r1_w13: factor of Fx[1]' */
+    c->r1_w13_w1_Fx__1 = product_6 / REAL(1775.0);
+}
+
+/* r1: coefficients */
+static void bound_compute_r1(khepera_built_threshold_coefficients *c,
+        const khepera_built_parameters *p, real w)
+{
+    /* khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2 */
+    const real sum = p->m__1__fe + p->m__1__fs / p->m__1__ge__N / p->m__1__ge__N;
+
+    /* m[1].Je + m[1].Js/m[1].ge.N^2 */
+    const real sum_2 = p->m__1__Je + p->m__1__Js / p->m__1__ge__N / p->m__1__ge__N;
+
+    /* m[1].el.Re*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k */
+    const real product = p->m__1__el__Re * sum / p->m__1__el__k;
+
+    /* m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    const real product_2 = p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*w^2/m[1].el.k */
+    const real product_5 = p->m__1__el__L * sum_2 * w * w / p->m__1__el__k;
+
+    /* m[1].R*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
+    const real product_6 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
+
+    real fe_times_Re_over_k;
+    real product_9;
+    real product_10;
+    real product_11;
+    real product_12;
+    real product_13;
+    real product_14;
+
+    bound_compute_fe_times_Re_over_k_to_product_14(c, p, w, sum_2, &fe_times_Re_over_k, &product_9,
+            &product_10, &product_11, &product_12, &product_13, &product_14);
+    bound_compute_r1_w4(c, product, product_2, product_14);
+    bound_compute_r1_w5(c, p, w, sum, sum_2, product_2, product_5, product_6);
+
+    /* khepera.bg:17: r1_w6: factor of m[1].motor' */
+    c->r1_w6_w1_m__1__motor = fe_times_Re_over_k / REAL(142.0);
+
+    /* r1_w7: factor of m[1].motor' */
+    c->r1_w7_w1_m__1__motor = fe_times_Re_over_k / REAL(355.0);
+
+    /* r1_w7: factor of m[1].motor'' */
+    c->r1_w7_w2_m__1__motor = product_9 / REAL(355.0);
+
+    /* r1_w8: factor of m[1].motor'' */
+    c->r1_w8_w2_m__1__motor = product_10 / REAL(710.0);
+
+    /* r1_w9: factor of m[1].motor'' */
+    c->r1_w9_w2_m__1__motor = product_10 / REAL(1775.0);
+
+    /* r1_w9: factor of m[1].motor''' */
+    c->r1_w9_w3_m__1__motor = product_11 / REAL(1775.0);
+
+    bound_compute_r1_w10_to_r1_w11(c, product_12, product_13);
+    bound_compute_r1_w12(c, product, product_2, product_14);
+    bound_compute_r1_w13(c, p, w, sum, sum_2, product, product_2, product_5, product_6);
+}
+
+/* filter: coefficients */
+static void bound_compute_filter(khepera_built_threshold_coefficients *c, real pole, real turn,
+        real sum_5)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * sum_5;
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn_2 / REAL(12.0);
+
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = turn_2 / REAL(6.0);
+
+    /* filter: 3 * (w*sample_time)^2/12 */
+    c->bend3 = REAL(0.25) * turn_2;
+}
+
+/* m[2].fe*m[2].el.Re/m[2].el.k; ...; m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)*w/m[2].el.k */
+static void bound_compute_fe_times_Re_over_k_2_to_product_20(khepera_built_threshold_coefficients
+            *c,
+        const khepera_built_parameters *p, real w, real sum_4, real *fe_times_Re_over_k_2_out,
+        real *product_15_out, real *product_16_out, real *product_17_out, real *product_18_out,
+        real *product_19_out, real *product_20_out)
+{
+    /* khepera.bg:17: m[2].fe*m[2].el.Re/m[2].el.k */
     const real fe_times_Re_over_k_2 = p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
 
     /* m[2].fe*m[2].el.L*w/m[2].el.k */
@@ -755,126 +947,6 @@ static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
     /* m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)*w/m[2].el.k */
     const real product_20 = p->m__2__el__Re * sum_4 * w / p->m__2__el__k;
 
-    /* r1_w1: factor of m[1].motor' */
-    c->r1_w1_w1_m__1__motor = fe_times_Re_over_k / REAL(10.0);
-
-    /* speed of m[1].motor for one count */
-    c->m__1__motor_gain = REAL(884279719003555.0) * (REAL(1.0)
-            - REAL(0.5) * sum_5) * w / REAL(3377699720527872.0);
-
-    /* filter: what is left of a memory a sample later */
-    c->a = pole;
-
-    /* filter: weight of a sample, new and a sample later */
-    c->b = REAL(0.5) * sum_5;
-
-    /* khepera.bg:17: r1_w1: factor of m[1].motor'' */
-    c->r1_w1_w2_m__1__motor = product_9 / REAL(10.0);
-
-    /* filter: 1 * (w*sample_time)^2/12 */
-    c->bend1 = turn_2 / REAL(12.0);
-
-    /* khepera.bg:17: r1_w2: factor of m[1].motor'' */
-    c->r1_w2_w2_m__1__motor = product_10 / REAL(50.0);
-
-    /* r1_w2: factor of m[1].motor''' */
-    c->r1_w2_w3_m__1__motor = product_11 / REAL(50.0);
-
-    /* r1_w3: factor of m[1].motor' */
-    c->r1_w3_w1_m__1__motor = product_12 / REAL(10.0);
-
-    /* r1_w3: factor of m[1].motor'' */
-    c->r1_w3_w2_m__1__motor = product_13 / REAL(10.0);
-
-    /* r1_w4: factor of Fx[1] */
-    c->r1_w4_Fx__1 = product_2 / REAL(20.0);
-
-    /* r1_w4: factor of m[1].motor' */
-    c->r1_w4_w1_m__1__motor = product / REAL(20.0);
-
-    /* r1_w4: factor of m[1].motor'' */
-    c->r1_w4_w2_m__1__motor = product_14 / REAL(20.0);
-
-    /* filter: 2 * (w*sample_time)^2/12 */
-    c->bend2 = turn_2 / REAL(6.0);
-
-    /* khepera.bg:17: r1_w5: factor of m[1].motor' */
-    c->r1_w5_w1_m__1__motor = p->m__1__el__k
-            * (p->m__1__el__Re * sum / p->m__1__el__k / p->m__1__el__k
-            - REAL(1.0)) / REAL(50.0);
-
-    /* r1_w5: factor of m[1].motor'' */
-    c->r1_w5_w2_m__1__motor = p->m__1__el__k * w
-            * (p->m__1__el__Re * sum_2 / p->m__1__el__k / p->m__1__el__k
-            + p->m__1__el__L * sum / p->m__1__el__k / p->m__1__el__k) / REAL(50.0);
-
-    /* r1_w5: factor of m[1].motor''' */
-    c->r1_w5_w3_m__1__motor = product_5 / REAL(50.0);
-
-    /* r1_w5: factor of Fx[1] */
-    c->r1_w5_Fx__1 = product_2 / REAL(50.0);
-
-    /* r1_w5: factor of Fx[1]' */
-    c->r1_w5_w1_Fx__1 = product_6 / REAL(50.0);
-
-    /* filter: 3 * (w*sample_time)^2/12 */
-    c->bend3 = REAL(0.25) * turn_2;
-
-    /* khepera.bg:17: r1_w6: factor of m[1].motor' */
-    c->r1_w6_w1_m__1__motor = fe_times_Re_over_k / REAL(142.0);
-
-    /* r1_w7: factor of m[1].motor' */
-    c->r1_w7_w1_m__1__motor = fe_times_Re_over_k / REAL(355.0);
-
-    /* r1_w7: factor of m[1].motor'' */
-    c->r1_w7_w2_m__1__motor = product_9 / REAL(355.0);
-
-    /* r1_w8: factor of m[1].motor'' */
-    c->r1_w8_w2_m__1__motor = product_10 / REAL(710.0);
-
-    /* r1_w9: factor of m[1].motor'' */
-    c->r1_w9_w2_m__1__motor = product_10 / REAL(1775.0);
-
-    /* r1_w9: factor of m[1].motor''' */
-    c->r1_w9_w3_m__1__motor = product_11 / REAL(1775.0);
-
-    /* r1_w10: factor of m[1].motor' */
-    c->r1_w10_w1_m__1__motor = product_12 / REAL(142.0);
-
-    /* r1_w11: factor of m[1].motor' */
-    c->r1_w11_w1_m__1__motor = product_12 / REAL(355.0);
-
-    /* r1_w11: factor of m[1].motor'' */
-    c->r1_w11_w2_m__1__motor = product_13 / REAL(355.0);
-
-    /* r1_w12: factor of m[1].motor' */
-    c->r1_w12_w1_m__1__motor = product / REAL(710.0);
-
-    /* r1_w12: factor of m[1].motor'' */
-    c->r1_w12_w2_m__1__motor = product_14 / REAL(710.0);
-
-    /* r1_w12: factor of Fx[1] */
-    c->r1_w12_Fx__1 = product_2 / REAL(710.0);
-
-    /* r1_w13: factor of m[1].motor' */
-    c->r1_w13_w1_m__1__motor = product / REAL(1775.0);
-
-    /* r1_w13: factor of m[1].motor'' */
-    c->r1_w13_w2_m__1__motor = p->m__1__el__k * p->m__1__el__k * w
-            * (-REAL(2.0) * p->m__1__el__L * sum / p->m__1__el__k / p->m__1__el__k / p->m__1__el__k
-            - REAL(2.0) * p->m__1__el__Re * sum_2 / p->m__1__el__k / p->m__1__el__k
-                / p->m__1__el__k)
-            / REAL(3550.0);
-
-    /* r1_w13: factor of m[1].motor''' */
-    c->r1_w13_w3_m__1__motor = product_5 / REAL(1775.0);
-
-    /* r1_w13: factor of Fx[1] */
-    c->r1_w13_Fx__1 = product_2 / REAL(1775.0);
-
-    /* r1_w13: factor of Fx[1]' */
-    c->r1_w13_w1_Fx__1 = product_6 / REAL(1775.0);
-
     /* r2_w1: factor of m[2].motor' */
     c->r2_w1_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(10.0);
 
@@ -893,7 +965,20 @@ static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
     /* r2_w3: factor of m[2].motor'' */
     c->r2_w3_w2_m__2__motor = product_19 / REAL(10.0);
 
-    /* r2_w4: factor of Fx[2] */
+    *fe_times_Re_over_k_2_out = fe_times_Re_over_k_2;
+    *product_15_out = product_15;
+    *product_16_out = product_16;
+    *product_17_out = product_17;
+    *product_18_out = product_18;
+    *product_19_out = product_19;
+    *product_20_out = product_20;
+}
+
+/* r2_w4: coefficients */
+static void bound_compute_r2_w4(khepera_built_threshold_coefficients *c, real product_3,
+        real product_4, real product_20)
+{
+    /* khepera.bg:17: r2_w4: factor of Fx[2] */
     c->r2_w4_Fx__2 = product_4 / REAL(20.0);
 
     /* r2_w4: factor of m[2].motor' */
@@ -901,8 +986,14 @@ static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
 
     /* r2_w4: factor of m[2].motor'' */
     c->r2_w4_w2_m__2__motor = product_20 / REAL(20.0);
+}
 
-    /* r2_w5: factor of m[2].motor' */
+/* r2_w5: coefficients */
+static void bound_compute_r2_w5(khepera_built_threshold_coefficients *c,
+        const khepera_built_parameters *p, real w, real sum_3, real sum_4, real product_4,
+        real product_7, real product_8)
+{
+    /* khepera.bg:17: r2_w5: factor of m[2].motor' */
     c->r2_w5_w1_m__2__motor = p->m__2__el__k
             * (p->m__2__el__Re * sum_3 / p->m__2__el__k / p->m__2__el__k
             - REAL(1.0)) / REAL(50.0);
@@ -920,26 +1011,13 @@ static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
 
     /* r2_w5: factor of Fx[2]' */
     c->r2_w5_w1_Fx__2 = product_8 / REAL(50.0);
+}
 
-    /* r2_w6: factor of m[2].motor' */
-    c->r2_w6_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(142.0);
-
-    /* r2_w7: factor of m[2].motor' */
-    c->r2_w7_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(355.0);
-
-    /* r2_w7: factor of m[2].motor'' */
-    c->r2_w7_w2_m__2__motor = product_15 / REAL(355.0);
-
-    /* r2_w8: factor of m[2].motor'' */
-    c->r2_w8_w2_m__2__motor = product_16 / REAL(710.0);
-
-    /* r2_w9: factor of m[2].motor'' */
-    c->r2_w9_w2_m__2__motor = product_16 / REAL(1775.0);
-
-    /* r2_w9: factor of m[2].motor''' */
-    c->r2_w9_w3_m__2__motor = product_17 / REAL(1775.0);
-
-    /* r2_w10: factor of m[2].motor' */
+/* r2_w10 to r2_w11: coefficients */
+static void bound_compute_r2_w10_to_r2_w11(khepera_built_threshold_coefficients *c, real product_18,
+        real product_19)
+{
+    /* khepera.bg:17: r2_w10: factor of m[2].motor' */
     c->r2_w10_w1_m__2__motor = product_18 / REAL(142.0);
 
     /* r2_w11: factor of m[2].motor' */
@@ -947,8 +1025,13 @@ static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
 
     /* r2_w11: factor of m[2].motor'' */
     c->r2_w11_w2_m__2__motor = product_19 / REAL(355.0);
+}
 
-    /* r2_w12: factor of m[2].motor' */
+/* r2_w12: coefficients */
+static void bound_compute_r2_w12(khepera_built_threshold_coefficients *c, real product_3,
+        real product_4, real product_20)
+{
+    /* khepera.bg:17: r2_w12: factor of m[2].motor' */
     c->r2_w12_w1_m__2__motor = product_3 / REAL(710.0);
 
     /* r2_w12: factor of m[2].motor'' */
@@ -956,8 +1039,14 @@ static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
 
     /* r2_w12: factor of Fx[2] */
     c->r2_w12_Fx__2 = product_4 / REAL(710.0);
+}
 
-    /* r2_w13: factor of m[2].motor' */
+/* r2_w13: coefficients */
+static void bound_compute_r2_w13(khepera_built_threshold_coefficients *c,
+        const khepera_built_parameters *p, real w, real sum_3, real sum_4, real product_3,
+        real product_4, real product_7, real product_8)
+{
+    /* khepera.bg:17: r2_w13: factor of m[2].motor' */
     c->r2_w13_w1_m__2__motor = product_3 / REAL(1775.0);
 
     /* r2_w13: factor of m[2].motor'' */
@@ -976,6 +1065,92 @@ static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
 
     /* r2_w13: factor of Fx[2]' */
     c->r2_w13_w1_Fx__2 = product_8 / REAL(1775.0);
+}
+
+/* r2: coefficients */
+static void bound_compute_r2(khepera_built_threshold_coefficients *c,
+        const khepera_built_parameters *p, real w)
+{
+    /* khepera.bg:17: m[2].fe + m[2].fs/m[2].ge.N^2 */
+    const real sum_3 = p->m__2__fe + p->m__2__fs / p->m__2__ge__N / p->m__2__ge__N;
+
+    /* m[2].Je + m[2].Js/m[2].ge.N^2 */
+    const real sum_4 = p->m__2__Je + p->m__2__Js / p->m__2__ge__N / p->m__2__ge__N;
+
+    /* m[2].el.Re*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k */
+    const real product_3 = p->m__2__el__Re * sum_3 / p->m__2__el__k;
+
+    /* m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    const real product_4 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*w^2/m[2].el.k */
+    const real product_7 = p->m__2__el__L * sum_4 * w * w / p->m__2__el__k;
+
+    /* m[2].R*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
+    const real product_8 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
+
+    real fe_times_Re_over_k_2;
+    real product_15;
+    real product_16;
+    real product_17;
+    real product_18;
+    real product_19;
+    real product_20;
+
+    bound_compute_fe_times_Re_over_k_2_to_product_20(c, p, w, sum_4, &fe_times_Re_over_k_2,
+            &product_15, &product_16, &product_17, &product_18, &product_19, &product_20);
+    bound_compute_r2_w4(c, product_3, product_4, product_20);
+    bound_compute_r2_w5(c, p, w, sum_3, sum_4, product_4, product_7, product_8);
+
+    /* khepera.bg:17: r2_w6: factor of m[2].motor' */
+    c->r2_w6_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(142.0);
+
+    /* r2_w7: factor of m[2].motor' */
+    c->r2_w7_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(355.0);
+
+    /* r2_w7: factor of m[2].motor'' */
+    c->r2_w7_w2_m__2__motor = product_15 / REAL(355.0);
+
+    /* r2_w8: factor of m[2].motor'' */
+    c->r2_w8_w2_m__2__motor = product_16 / REAL(710.0);
+
+    /* r2_w9: factor of m[2].motor'' */
+    c->r2_w9_w2_m__2__motor = product_16 / REAL(1775.0);
+
+    /* r2_w9: factor of m[2].motor''' */
+    c->r2_w9_w3_m__2__motor = product_17 / REAL(1775.0);
+
+    bound_compute_r2_w10_to_r2_w11(c, product_18, product_19);
+    bound_compute_r2_w12(c, product_3, product_4, product_20);
+    bound_compute_r2_w13(c, p, w, sum_3, sum_4, product_3, product_4, product_7, product_8);
+}
+
+/* The coefficients, from the parameters. */
+static void bound_compute_coefficients(khepera_built_threshold_coefficients *c,
+        const khepera_built_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real sum_5 = REAL(1.0) - pole;
+
+    /* speed of m[1].motor for one count */
+    c->m__1__motor_gain = REAL(884279719003555.0) * (REAL(1.0)
+            - REAL(0.5) * sum_5) * w / REAL(3377699720527872.0);
+
+    bound_compute_r1(c, p, w);
+    bound_compute_filter(c, pole, turn, sum_5);
+    bound_compute_r2(c, p, w);
 }
 
 static bool bound_coefficients_are_finite(const khepera_built_threshold_coefficients *c)
@@ -1031,16 +1206,10 @@ khepera_built_status khepera_built_threshold_configure(
     return KHEPERA_BUILT_OK;
 }
 
-/* r1 on one sample.
- * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
-static void bound_r1(
-    const khepera_built_threshold_coefficients *c, khepera_built_threshold_memory *x, const khepera_built_samples *s, real *r)
+/* a stage of the filter; on the first sample it is at rest */
+static void bound_r1_w1_a_to_w1_b(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real *w1_a_out, real *w1_b_out)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-    const khepera_built_threshold_encoders *e = &x->e;
-
-    count_on(&x->e.m__1__motor, s->m__1__motor, first);
-
     if (first) {
         /* nothing is remembered yet */
         x->r1_w1_m__1__motor_speed = REAL(0.0);
@@ -1053,6 +1222,16 @@ static void bound_r1(
     /* r1_w1: a stage of the filter; on the first sample it is at rest */
     const real w1_a = first ? -c->b : c->a;
     const real w1_b = first ? REAL(1.0) : c->b;
+
+    *w1_a_out = w1_a;
+    *w1_b_out = w1_b;
+}
+
+/* what the tolerance of m[1].fe can do */
+static real bound_r1_w1(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
 
     /* filtered speed of m[1].motor */
     const real w1_m__1__motor_speed_2 = c->a * x->r1_w1_m__1__motor_speed
@@ -1102,6 +1281,15 @@ static void bound_r1(
     /* what the tolerance of m[1].fe can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* filtered speed of m[1].motor */
+static real bound_r1_w2_m__1__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w2_m__1__motor_speed = REAL(0.0);
@@ -1116,6 +1304,13 @@ static void bound_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w2_m__1__motor_speed = w2_m__1__motor_speed_2;
 
+    return w2_m__1__motor_speed_2;
+}
+
+/* what the tolerance of m[1].Js can do */
+static real bound_r1_w2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b, real w2_m__1__motor_speed_2)
+{
     /* r1_w2: encoders, order 2 */
     const real w2_n2 = -c->r1_w2_w2_m__1__motor * w2_m__1__motor_speed_2;
 
@@ -1162,6 +1357,15 @@ static void bound_r1(
     /* what the tolerance of m[1].Js can do */
     const real w2 = w2_y1 - w2_e2;
 
+    return w2;
+}
+
+/* filtered speed of m[1].motor */
+static real bound_r1_w3_m__1__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w3_m__1__motor_speed = REAL(0.0);
@@ -1176,6 +1380,13 @@ static void bound_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w3_m__1__motor_speed = w3_m__1__motor_speed_2;
 
+    return w3_m__1__motor_speed_2;
+}
+
+/* what the tolerance of m[1].fs can do */
+static real bound_r1_w3(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b, real w3_m__1__motor_speed_2)
+{
     /* r1_w3: encoders, order 1 */
     const real w3_n1 = -c->r1_w3_w1_m__1__motor * w3_m__1__motor_speed_2;
 
@@ -1219,6 +1430,15 @@ static void bound_r1(
     /* what the tolerance of m[1].fs can do */
     const real w3 = w3_y1;
 
+    return w3;
+}
+
+/* filtered speed of m[1].motor */
+static real bound_r1_w4_m__1__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w4_m__1__motor_speed = REAL(0.0);
@@ -1233,6 +1453,14 @@ static void bound_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w4_m__1__motor_speed = w4_m__1__motor_speed_2;
 
+    return w4_m__1__motor_speed_2;
+}
+
+/* what the tolerance of m[1].el.Re can do */
+static real bound_r1_w4(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, const khepera_built_samples *s, real w1_a, real w1_b,
+        real w4_m__1__motor_speed_2)
+{
     /* r1_w4: encoders, order 1 */
     const real w4_n1 = -c->r1_w4_w1_m__1__motor * w4_m__1__motor_speed_2;
 
@@ -1282,6 +1510,15 @@ static void bound_r1(
     /* what the tolerance of m[1].el.Re can do */
     const real w4 = w4_y1;
 
+    return w4;
+}
+
+/* filtered speed of m[1].motor */
+static real bound_r1_w5_m__1__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w5_m__1__motor_speed = REAL(0.0);
@@ -1296,21 +1533,14 @@ static void bound_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w5_m__1__motor_speed = w5_m__1__motor_speed_2;
 
-    /* r1_w5: encoders, order 1 */
-    const real w5_n1 = c->r1_w5_w1_m__1__motor * w5_m__1__motor_speed_2;
+    return w5_m__1__motor_speed_2;
+}
 
-    /* r1_w5: error of order 1 */
-    const real w5_e1 = c->bend2 * w5_n1;
-
-    /* r1_w5: encoders, order 2 */
-    const real w5_n2 = c->r1_w5_w2_m__1__motor * w5_m__1__motor_speed_2;
-
-    /* r1_w5: error of order 2 */
-    const real w5_e2 = c->bend1 * w5_n2;
-
-    /* r1_w5: encoders, order 3 */
-    const real w5_n3 = c->r1_w5_w3_m__1__motor * w5_m__1__motor_speed_2;
-
+/* what the tolerance of m[1].el.k can do */
+static real bound_r1_w5(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, const khepera_built_samples *s, real w1_a, real w1_b,
+        real w5_n1, real w5_e1, real w5_n2, real w5_e2, real w5_n3)
+{
     /* r1_w5: terms of order 0 */
     const real w5_g0 = c->r1_w5_Fx__1 * s->Fx__1;
 
@@ -1363,6 +1593,15 @@ static void bound_r1(
     /* what the tolerance of m[1].el.k can do */
     const real w5 = w5_y1 - w5_e2;
 
+    return w5;
+}
+
+/* what the tolerances of m[1].fe and m[1].el.Re can do together */
+static real bound_r1_w6(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w6_m__1__motor_speed = REAL(0.0);
@@ -1412,6 +1651,15 @@ static void bound_r1(
         x->r1_w7_s1 = REAL(0.0);
     }
 
+    return w6;
+}
+
+/* what the tolerances of m[1].fe and m[1].el.k can do together */
+static real bound_r1_w7(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[1].motor */
     const real w7_m__1__motor_speed_2 = c->a * x->r1_w7_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
@@ -1459,6 +1707,15 @@ static void bound_r1(
 
     /* what the tolerances of m[1].fe and m[1].el.k can do together */
     const real w7 = w7_y1;
+
+    return w7;
+}
+
+/* what the tolerances of m[1].Js and m[1].el.Re can do together */
+static real bound_r1_w8(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -1512,6 +1769,15 @@ static void bound_r1(
         x->r1_w9_s1 = REAL(0.0);
     }
 
+    return w8;
+}
+
+/* what the tolerances of m[1].Js and m[1].el.k can do together */
+static real bound_r1_w9(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[1].motor */
     const real w9_m__1__motor_speed_2 = c->a * x->r1_w9_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
@@ -1563,6 +1829,15 @@ static void bound_r1(
     /* what the tolerances of m[1].Js and m[1].el.k can do together */
     const real w9 = w9_y1 - w9_e2;
 
+    return w9;
+}
+
+/* what the tolerances of m[1].fs and m[1].el.Re can do together */
+static real bound_r1_w10(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w10_m__1__motor_speed = REAL(0.0);
@@ -1612,6 +1887,15 @@ static void bound_r1(
         x->r1_w11_s1 = REAL(0.0);
     }
 
+    return w10;
+}
+
+/* what the tolerances of m[1].fs and m[1].el.k can do together */
+static real bound_r1_w11(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[1].motor */
     const real w11_m__1__motor_speed_2 = c->a * x->r1_w11_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
@@ -1660,6 +1944,15 @@ static void bound_r1(
     /* what the tolerances of m[1].fs and m[1].el.k can do together */
     const real w11 = w11_y1;
 
+    return w11;
+}
+
+/* filtered speed of m[1].motor */
+static real bound_r1_w12_m__1__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w12_m__1__motor_speed = REAL(0.0);
@@ -1674,6 +1967,14 @@ static void bound_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w12_m__1__motor_speed = w12_m__1__motor_speed_2;
 
+    return w12_m__1__motor_speed_2;
+}
+
+/* what the tolerances of m[1].el.Re and m[1].el.k can do together */
+static real bound_r1_w12(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, const khepera_built_samples *s, real w1_a, real w1_b,
+        real w12_m__1__motor_speed_2)
+{
     /* r1_w12: encoders, order 1 */
     const real w12_n1 = c->r1_w12_w1_m__1__motor * w12_m__1__motor_speed_2;
 
@@ -1723,6 +2024,16 @@ static void bound_r1(
     /* what the tolerances of m[1].el.Re and m[1].el.k can do together */
     const real w12 = w12_y1;
 
+    return w12;
+}
+
+/* encoders, order 1; ...; encoders, order 3 */
+static void bound_r1_w13_n1_to_w13_n3(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real *w13_n1_out, real *w13_e1_out,
+        real *w13_n2_out, real *w13_e2_out, real *w13_n3_out)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w13_m__1__motor_speed = REAL(0.0);
@@ -1752,6 +2063,18 @@ static void bound_r1(
     /* r1_w13: encoders, order 3 */
     const real w13_n3 = -c->r1_w13_w3_m__1__motor * w13_m__1__motor_speed_2;
 
+    *w13_n1_out = w13_n1;
+    *w13_e1_out = w13_e1;
+    *w13_n2_out = w13_n2;
+    *w13_e2_out = w13_e2;
+    *w13_n3_out = w13_n3;
+}
+
+/* second order of what the tolerance of m[1].el.k can do */
+static real bound_r1_w13(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, const khepera_built_samples *s, real w1_a, real w1_b,
+        real w13_n1, real w13_e1, real w13_n2, real w13_e2, real w13_n3)
+{
     /* r1_w13: terms of order 0 */
     const real w13_g0 = c->r1_w13_Fx__1 * s->Fx__1;
 
@@ -1804,21 +2127,74 @@ static void bound_r1(
     /* second order of what the tolerance of m[1].el.k can do */
     const real w13 = w13_y1 - w13_e2;
 
+    return w13;
+}
+
+/* r1 on one sample.
+ * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
+static void bound_r1(
+    const khepera_built_threshold_coefficients *c, khepera_built_threshold_memory *x, const khepera_built_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    count_on(&x->e.m__1__motor, s->m__1__motor, first);
+
+    real w1_a;
+    real w1_b;
+
+    bound_r1_w1_a_to_w1_b(c, x, first, &w1_a, &w1_b);
+    const real w1 = bound_r1_w1(c, x, w1_a, w1_b);
+    const real w2_m__1__motor_speed_2 = bound_r1_w2_m__1__motor_speed_2(c, x, first);
+    const real w2 = bound_r1_w2(c, x, w1_a, w1_b, w2_m__1__motor_speed_2);
+    const real w3_m__1__motor_speed_2 = bound_r1_w3_m__1__motor_speed_2(c, x, first);
+    const real w3 = bound_r1_w3(c, x, w1_a, w1_b, w3_m__1__motor_speed_2);
+    const real w4_m__1__motor_speed_2 = bound_r1_w4_m__1__motor_speed_2(c, x, first);
+    const real w4 = bound_r1_w4(c, x, s, w1_a, w1_b, w4_m__1__motor_speed_2);
+    const real w5_m__1__motor_speed_2 = bound_r1_w5_m__1__motor_speed_2(c, x, first);
+
+    /* r1_w5: encoders, order 1 */
+    const real w5_n1 = c->r1_w5_w1_m__1__motor * w5_m__1__motor_speed_2;
+
+    /* r1_w5: error of order 1 */
+    const real w5_e1 = c->bend2 * w5_n1;
+
+    /* r1_w5: encoders, order 2 */
+    const real w5_n2 = c->r1_w5_w2_m__1__motor * w5_m__1__motor_speed_2;
+
+    /* r1_w5: error of order 2 */
+    const real w5_e2 = c->bend1 * w5_n2;
+
+    /* r1_w5: encoders, order 3 */
+    const real w5_n3 = c->r1_w5_w3_m__1__motor * w5_m__1__motor_speed_2;
+
+    const real w5 = bound_r1_w5(c, x, s, w1_a, w1_b, w5_n1, w5_e1, w5_n2, w5_e2, w5_n3);
+    const real w6 = bound_r1_w6(c, x, first, w1_a, w1_b);
+    const real w7 = bound_r1_w7(c, x, w1_a, w1_b);
+    const real w8 = bound_r1_w8(c, x, first, w1_a, w1_b);
+    const real w9 = bound_r1_w9(c, x, w1_a, w1_b);
+    const real w10 = bound_r1_w10(c, x, first, w1_a, w1_b);
+    const real w11 = bound_r1_w11(c, x, w1_a, w1_b);
+    const real w12_m__1__motor_speed_2 = bound_r1_w12_m__1__motor_speed_2(c, x, first);
+    const real w12 = bound_r1_w12(c, x, s, w1_a, w1_b, w12_m__1__motor_speed_2);
+
+    real w13_n1;
+    real w13_e1;
+    real w13_n2;
+    real w13_e2;
+    real w13_n3;
+
+    bound_r1_w13_n1_to_w13_n3(c, x, first, &w13_n1, &w13_e1, &w13_n2, &w13_e2, &w13_n3);
+    const real w13 = bound_r1_w13(c, x, s, w1_a, w1_b, w13_n1, w13_e1, w13_n2, w13_e2, w13_n3);
+
     r[KHEPERA_BUILT_R1] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
         + MATH(fabs)(w10) + MATH(fabs)(w11) + MATH(fabs)(w12) + MATH(fabs)(w13);
 }
 
-/* r2 on one sample.
- * khepera.bg:17: r2: how far r2 can be from zero if no parameter is out of tolerance */
-static void bound_r2(
-    const khepera_built_threshold_coefficients *c, khepera_built_threshold_memory *x, const khepera_built_samples *s, real *r)
+/* a stage of the filter; on the first sample it is at rest */
+static void bound_r2_w1_a_to_w1_b(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real *w1_a_out, real *w1_b_out)
 {
-    const bool first = x->youngest == 0u && x->age[1] == 0u;
-    const khepera_built_threshold_encoders *e = &x->e;
-
-    count_on(&x->e.m__2__motor, s->m__2__motor, first);
-
     if (first) {
         /* nothing is remembered yet */
         x->r2_w1_m__2__motor_speed = REAL(0.0);
@@ -1831,6 +2207,16 @@ static void bound_r2(
     /* r2_w1: a stage of the filter; on the first sample it is at rest */
     const real w1_a = first ? -c->b : c->a;
     const real w1_b = first ? REAL(1.0) : c->b;
+
+    *w1_a_out = w1_a;
+    *w1_b_out = w1_b;
+}
+
+/* what the tolerance of m[2].fe can do */
+static real bound_r2_w1(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
 
     /* filtered speed of m[2].motor */
     const real w1_m__2__motor_speed_2 = c->a * x->r2_w1_m__2__motor_speed
@@ -1880,6 +2266,15 @@ static void bound_r2(
     /* what the tolerance of m[2].fe can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* filtered speed of m[2].motor */
+static real bound_r2_w2_m__2__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w2_m__2__motor_speed = REAL(0.0);
@@ -1894,6 +2289,13 @@ static void bound_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w2_m__2__motor_speed = w2_m__2__motor_speed_2;
 
+    return w2_m__2__motor_speed_2;
+}
+
+/* what the tolerance of m[2].Js can do */
+static real bound_r2_w2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b, real w2_m__2__motor_speed_2)
+{
     /* r2_w2: encoders, order 2 */
     const real w2_n2 = -c->r2_w2_w2_m__2__motor * w2_m__2__motor_speed_2;
 
@@ -1940,6 +2342,15 @@ static void bound_r2(
     /* what the tolerance of m[2].Js can do */
     const real w2 = w2_y1 - w2_e2;
 
+    return w2;
+}
+
+/* filtered speed of m[2].motor */
+static real bound_r2_w3_m__2__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w3_m__2__motor_speed = REAL(0.0);
@@ -1954,6 +2365,13 @@ static void bound_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w3_m__2__motor_speed = w3_m__2__motor_speed_2;
 
+    return w3_m__2__motor_speed_2;
+}
+
+/* what the tolerance of m[2].fs can do */
+static real bound_r2_w3(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b, real w3_m__2__motor_speed_2)
+{
     /* r2_w3: encoders, order 1 */
     const real w3_n1 = -c->r2_w3_w1_m__2__motor * w3_m__2__motor_speed_2;
 
@@ -1997,6 +2415,15 @@ static void bound_r2(
     /* what the tolerance of m[2].fs can do */
     const real w3 = w3_y1;
 
+    return w3;
+}
+
+/* filtered speed of m[2].motor */
+static real bound_r2_w4_m__2__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w4_m__2__motor_speed = REAL(0.0);
@@ -2011,6 +2438,14 @@ static void bound_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w4_m__2__motor_speed = w4_m__2__motor_speed_2;
 
+    return w4_m__2__motor_speed_2;
+}
+
+/* what the tolerance of m[2].el.Re can do */
+static real bound_r2_w4(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, const khepera_built_samples *s, real w1_a, real w1_b,
+        real w4_m__2__motor_speed_2)
+{
     /* r2_w4: encoders, order 1 */
     const real w4_n1 = -c->r2_w4_w1_m__2__motor * w4_m__2__motor_speed_2;
 
@@ -2060,6 +2495,15 @@ static void bound_r2(
     /* what the tolerance of m[2].el.Re can do */
     const real w4 = w4_y1;
 
+    return w4;
+}
+
+/* filtered speed of m[2].motor */
+static real bound_r2_w5_m__2__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w5_m__2__motor_speed = REAL(0.0);
@@ -2074,21 +2518,14 @@ static void bound_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w5_m__2__motor_speed = w5_m__2__motor_speed_2;
 
-    /* r2_w5: encoders, order 1 */
-    const real w5_n1 = c->r2_w5_w1_m__2__motor * w5_m__2__motor_speed_2;
+    return w5_m__2__motor_speed_2;
+}
 
-    /* r2_w5: error of order 1 */
-    const real w5_e1 = c->bend2 * w5_n1;
-
-    /* r2_w5: encoders, order 2 */
-    const real w5_n2 = c->r2_w5_w2_m__2__motor * w5_m__2__motor_speed_2;
-
-    /* r2_w5: error of order 2 */
-    const real w5_e2 = c->bend1 * w5_n2;
-
-    /* r2_w5: encoders, order 3 */
-    const real w5_n3 = c->r2_w5_w3_m__2__motor * w5_m__2__motor_speed_2;
-
+/* what the tolerance of m[2].el.k can do */
+static real bound_r2_w5(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, const khepera_built_samples *s, real w1_a, real w1_b,
+        real w5_n1, real w5_e1, real w5_n2, real w5_e2, real w5_n3)
+{
     /* r2_w5: terms of order 0 */
     const real w5_g0 = c->r2_w5_Fx__2 * s->Fx__2;
 
@@ -2141,6 +2578,15 @@ static void bound_r2(
     /* what the tolerance of m[2].el.k can do */
     const real w5 = w5_y1 - w5_e2;
 
+    return w5;
+}
+
+/* what the tolerances of m[2].fe and m[2].el.Re can do together */
+static real bound_r2_w6(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w6_m__2__motor_speed = REAL(0.0);
@@ -2190,6 +2636,15 @@ static void bound_r2(
         x->r2_w7_s1 = REAL(0.0);
     }
 
+    return w6;
+}
+
+/* what the tolerances of m[2].fe and m[2].el.k can do together */
+static real bound_r2_w7(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[2].motor */
     const real w7_m__2__motor_speed_2 = c->a * x->r2_w7_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
@@ -2237,6 +2692,15 @@ static void bound_r2(
 
     /* what the tolerances of m[2].fe and m[2].el.k can do together */
     const real w7 = w7_y1;
+
+    return w7;
+}
+
+/* what the tolerances of m[2].Js and m[2].el.Re can do together */
+static real bound_r2_w8(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -2290,6 +2754,15 @@ static void bound_r2(
         x->r2_w9_s1 = REAL(0.0);
     }
 
+    return w8;
+}
+
+/* what the tolerances of m[2].Js and m[2].el.k can do together */
+static real bound_r2_w9(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[2].motor */
     const real w9_m__2__motor_speed_2 = c->a * x->r2_w9_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
@@ -2341,6 +2814,15 @@ static void bound_r2(
     /* what the tolerances of m[2].Js and m[2].el.k can do together */
     const real w9 = w9_y1 - w9_e2;
 
+    return w9;
+}
+
+/* what the tolerances of m[2].fs and m[2].el.Re can do together */
+static real bound_r2_w10(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w10_m__2__motor_speed = REAL(0.0);
@@ -2390,6 +2872,15 @@ static void bound_r2(
         x->r2_w11_s1 = REAL(0.0);
     }
 
+    return w10;
+}
+
+/* what the tolerances of m[2].fs and m[2].el.k can do together */
+static real bound_r2_w11(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[2].motor */
     const real w11_m__2__motor_speed_2 = c->a * x->r2_w11_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
@@ -2438,6 +2929,15 @@ static void bound_r2(
     /* what the tolerances of m[2].fs and m[2].el.k can do together */
     const real w11 = w11_y1;
 
+    return w11;
+}
+
+/* filtered speed of m[2].motor */
+static real bound_r2_w12_m__2__motor_speed_2(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w12_m__2__motor_speed = REAL(0.0);
@@ -2452,6 +2952,14 @@ static void bound_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w12_m__2__motor_speed = w12_m__2__motor_speed_2;
 
+    return w12_m__2__motor_speed_2;
+}
+
+/* what the tolerances of m[2].el.Re and m[2].el.k can do together */
+static real bound_r2_w12(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, const khepera_built_samples *s, real w1_a, real w1_b,
+        real w12_m__2__motor_speed_2)
+{
     /* r2_w12: encoders, order 1 */
     const real w12_n1 = c->r2_w12_w1_m__2__motor * w12_m__2__motor_speed_2;
 
@@ -2501,6 +3009,16 @@ static void bound_r2(
     /* what the tolerances of m[2].el.Re and m[2].el.k can do together */
     const real w12 = w12_y1;
 
+    return w12;
+}
+
+/* encoders, order 1; ...; encoders, order 3 */
+static void bound_r2_w13_n1_to_w13_n3(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, bool first, real *w13_n1_out, real *w13_e1_out,
+        real *w13_n2_out, real *w13_e2_out, real *w13_n3_out)
+{
+    const khepera_built_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w13_m__2__motor_speed = REAL(0.0);
@@ -2530,6 +3048,18 @@ static void bound_r2(
     /* r2_w13: encoders, order 3 */
     const real w13_n3 = -c->r2_w13_w3_m__2__motor * w13_m__2__motor_speed_2;
 
+    *w13_n1_out = w13_n1;
+    *w13_e1_out = w13_e1;
+    *w13_n2_out = w13_n2;
+    *w13_e2_out = w13_e2;
+    *w13_n3_out = w13_n3;
+}
+
+/* second order of what the tolerance of m[2].el.k can do */
+static real bound_r2_w13(const khepera_built_threshold_coefficients *c,
+        khepera_built_threshold_memory *x, const khepera_built_samples *s, real w1_a, real w1_b,
+        real w13_n1, real w13_e1, real w13_n2, real w13_e2, real w13_n3)
+{
     /* r2_w13: terms of order 0 */
     const real w13_g0 = c->r2_w13_Fx__2 * s->Fx__2;
 
@@ -2581,6 +3111,65 @@ static void bound_r2(
 
     /* second order of what the tolerance of m[2].el.k can do */
     const real w13 = w13_y1 - w13_e2;
+
+    return w13;
+}
+
+/* r2 on one sample.
+ * khepera.bg:17: r2: how far r2 can be from zero if no parameter is out of tolerance */
+static void bound_r2(
+    const khepera_built_threshold_coefficients *c, khepera_built_threshold_memory *x, const khepera_built_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+
+    count_on(&x->e.m__2__motor, s->m__2__motor, first);
+
+    real w1_a;
+    real w1_b;
+
+    bound_r2_w1_a_to_w1_b(c, x, first, &w1_a, &w1_b);
+    const real w1 = bound_r2_w1(c, x, w1_a, w1_b);
+    const real w2_m__2__motor_speed_2 = bound_r2_w2_m__2__motor_speed_2(c, x, first);
+    const real w2 = bound_r2_w2(c, x, w1_a, w1_b, w2_m__2__motor_speed_2);
+    const real w3_m__2__motor_speed_2 = bound_r2_w3_m__2__motor_speed_2(c, x, first);
+    const real w3 = bound_r2_w3(c, x, w1_a, w1_b, w3_m__2__motor_speed_2);
+    const real w4_m__2__motor_speed_2 = bound_r2_w4_m__2__motor_speed_2(c, x, first);
+    const real w4 = bound_r2_w4(c, x, s, w1_a, w1_b, w4_m__2__motor_speed_2);
+    const real w5_m__2__motor_speed_2 = bound_r2_w5_m__2__motor_speed_2(c, x, first);
+
+    /* r2_w5: encoders, order 1 */
+    const real w5_n1 = c->r2_w5_w1_m__2__motor * w5_m__2__motor_speed_2;
+
+    /* r2_w5: error of order 1 */
+    const real w5_e1 = c->bend2 * w5_n1;
+
+    /* r2_w5: encoders, order 2 */
+    const real w5_n2 = c->r2_w5_w2_m__2__motor * w5_m__2__motor_speed_2;
+
+    /* r2_w5: error of order 2 */
+    const real w5_e2 = c->bend1 * w5_n2;
+
+    /* r2_w5: encoders, order 3 */
+    const real w5_n3 = c->r2_w5_w3_m__2__motor * w5_m__2__motor_speed_2;
+
+    const real w5 = bound_r2_w5(c, x, s, w1_a, w1_b, w5_n1, w5_e1, w5_n2, w5_e2, w5_n3);
+    const real w6 = bound_r2_w6(c, x, first, w1_a, w1_b);
+    const real w7 = bound_r2_w7(c, x, w1_a, w1_b);
+    const real w8 = bound_r2_w8(c, x, first, w1_a, w1_b);
+    const real w9 = bound_r2_w9(c, x, w1_a, w1_b);
+    const real w10 = bound_r2_w10(c, x, first, w1_a, w1_b);
+    const real w11 = bound_r2_w11(c, x, w1_a, w1_b);
+    const real w12_m__2__motor_speed_2 = bound_r2_w12_m__2__motor_speed_2(c, x, first);
+    const real w12 = bound_r2_w12(c, x, s, w1_a, w1_b, w12_m__2__motor_speed_2);
+
+    real w13_n1;
+    real w13_e1;
+    real w13_n2;
+    real w13_e2;
+    real w13_n3;
+
+    bound_r2_w13_n1_to_w13_n3(c, x, first, &w13_n1, &w13_e1, &w13_n2, &w13_e2, &w13_n3);
+    const real w13 = bound_r2_w13(c, x, s, w1_a, w1_b, w13_n1, w13_e1, w13_n2, w13_e2, w13_n3);
 
     r[KHEPERA_BUILT_R2] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
@@ -2753,12 +3342,27 @@ static void forget_sums(khepera_built_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined KHEPERA_BUILT_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const khepera_built_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     khepera_built_diagnosis *d, const khepera_built_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -2850,6 +3454,7 @@ void khepera_built_clear(khepera_built_diagnosis *diagnosis)
     diagnosis->fault_class = KHEPERA_BUILT_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void khepera_built_diagnosis_reset(khepera_built_diagnosis *diagnosis)
@@ -2867,6 +3472,40 @@ void khepera_built_diagnosis_reset(khepera_built_diagnosis *diagnosis)
     khepera_built_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const khepera_built_limit *limits, const real *bounds, const khepera_built_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < KHEPERA_BUILT_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < KHEPERA_BUILT_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(khepera_built_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == KHEPERA_BUILT_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = KHEPERA_BUILT_BLIND;
+    }
+}
+
 bool khepera_built_diagnose(
     khepera_built_diagnosis *diagnosis,
     const khepera_built_limit *limits,
@@ -2881,6 +3520,10 @@ bool khepera_built_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -2892,13 +3535,9 @@ bool khepera_built_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == KHEPERA_BUILT_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = KHEPERA_BUILT_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == KHEPERA_BUILT_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == KHEPERA_BUILT_ALARM;
     }
     if (fresh) {

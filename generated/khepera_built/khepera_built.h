@@ -541,6 +541,7 @@ typedef struct khepera_built_diagnosis {
     int16_t fault_class; /* the one that is left, or KHEPERA_BUILT_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     khepera_built_real above[KHEPERA_BUILT_RESIDUALS];
     khepera_built_real below[KHEPERA_BUILT_RESIDUALS];
     khepera_built_real louder[KHEPERA_BUILT_RESIDUALS];

@@ -4,6 +4,7 @@
 #ifndef KHEPERA_ENCODERS_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -188,22 +189,10 @@ const khepera_encoders_coefficients khepera_encoders_nominal_coefficients = {
     654u                             /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void compute_coefficients(khepera_encoders_coefficients *c,
-        const khepera_encoders_parameters *p, real sample_time, real bandwidth)
+/* r1: coefficients */
+static void compute_r1(khepera_encoders_coefficients *c, const khepera_encoders_parameters *p,
+        real w)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
     /* khepera.bg:17: m[1].fe*m[1].el.L/m[1].el.k */
     const real fe_times_L_over_k = p->m__1__fe * p->m__1__el__L / p->m__1__el__k;
 
@@ -216,31 +205,7 @@ static void compute_coefficients(khepera_encoders_coefficients *c,
     /* m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
     const real product_2 = p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
 
-    /* m[2].fe*m[2].el.L/m[2].el.k */
-    const real fe_times_L_over_k_2 = p->m__2__fe * p->m__2__el__L / p->m__2__el__k;
-
-    /* m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) */
-    const real product_3 = p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
-
-    /* m[2].Je*m[2].el.Re/m[2].el.k */
-    const real Je_times_Re_over_k_2 = p->m__2__Je * p->m__2__el__Re / p->m__2__el__k;
-
-    /* m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
-    const real product_4 = p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
-
-    /* khepera.bg:114: R_L^2 */
-    const real R_L = p->R_L * p->R_L;
-
-    /* 1 - pole */
-    const real sum = REAL(1.0) - pole;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* (1 - (1 - pole)/2)*w */
-    const real product_5 = (REAL(1.0) - REAL(0.5) * sum) * w;
-
-    /* khepera.bg:17: r1: factor of m[1].motor': m[1].el.k + m[1].fe*m[1].el.Re/m[1].el.k */
+    /* r1: factor of m[1].motor': m[1].el.k + m[1].fe*m[1].el.Re/m[1].el.k */
     c->r1_m__1__motor_1 = p->m__1__el__k + p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
 
     /* r1: factor of Fx[1]: m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
@@ -249,16 +214,7 @@ static void compute_coefficients(khepera_encoders_coefficients *c,
     /* r1: factor of m[1].wheel': m[1].fs*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
     c->r1_m__1__wheel_1 = p->m__1__fs * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
 
-    /* speed of m[1].motor for one count */
-    c->m__1__motor_gain = REAL(0.0015339807878856412) * product_5;
-
-    /* filter: what is left of a memory a sample later */
-    c->a = pole;
-
-    /* filter: weight of a sample, new and a sample later */
-    c->b = REAL(0.5) * sum;
-
-    /* khepera.bg:17: r1: factor of m[1].motor'' */
+    /* r1: factor of m[1].motor'' */
     c->r1_w2_m__1__motor = (-fe_times_L_over_k - Je_times_Re_over_k) * w;
 
     /* r1: factor of m[1].motor''' */
@@ -267,14 +223,24 @@ static void compute_coefficients(khepera_encoders_coefficients *c,
     /* r1: factor of Fx[1]' */
     c->r1_w1_Fx__1 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
 
-    /* speed of m[1].wheel for one count */
-    c->m__1__wheel_gain = REAL(9.587379924285257e-05) * product_5;
-
-    /* khepera.bg:17: r1: factor of m[1].wheel'' */
+    /* r1: factor of m[1].wheel'' */
     c->r1_w2_m__1__wheel = (-product - product_2) * w;
 
     /* r1: factor of m[1].wheel''' */
     c->r1_w3_m__1__wheel = p->m__1__Js * p->m__1__el__L * w * w / p->m__1__el__k / p->m__1__ge__N;
+}
+
+/* filter: coefficients */
+static void compute_filter(khepera_encoders_coefficients *c, real pole, real turn, real sum)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * sum;
 
     /* filter: 2 * (w*sample_time)^2/12 */
     c->bend2 = turn_2 / REAL(6.0);
@@ -284,14 +250,13 @@ static void compute_coefficients(khepera_encoders_coefficients *c,
 
     /* filter: 3 * (w*sample_time)^2/12 */
     c->bend3 = REAL(0.25) * turn_2;
+}
 
-    /* khepera_encoders.bg:31: 1/(4*m[1].tau0) */
-    c->scaled_one_over_tau0 = REAL(0.25) / p->m__1__tau0;
-
-    /* m[1].ge.N/(4*m[1].tau0) */
-    c->scaled_N_over_tau0 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0;
-
-    /* r2: factor of Fx[1]: m[1].R/m[1].ge.N */
+/* r2: coefficients */
+static void compute_r2(khepera_encoders_coefficients *c, const khepera_encoders_parameters *p,
+        real w)
+{
+    /* khepera_encoders.bg:31: r2: factor of Fx[1]: m[1].R/m[1].ge.N */
     c->r2_Fx__1 = p->m__1__R / p->m__1__ge__N;
 
     /* r2: factor of m[1].wheel': m[1].fs/m[1].ge.N */
@@ -307,16 +272,27 @@ static void compute_coefficients(khepera_encoders_coefficients *c,
      * m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0)): m[1].K*m[1].tau0*m[1].A */
     c->r2_tanh = p->m__1__K * p->m__1__tau0 * p->m__1__A;
 
-    /* m[1].wheel.int.x0 */
-    c->m__1__wheel__int__x0 = REAL(0.0);
-
-    /* m[1].motor.int.x0 */
-    c->m__1__motor__int__x0 = REAL(0.0);
-
     /* r2: factor of m[1].wheel'' */
     c->r2_w2_m__1__wheel = p->m__1__Js * w / p->m__1__ge__N;
+}
 
-    /* khepera.bg:17: r3: factor of m[2].motor': m[2].el.k + m[2].fe*m[2].el.Re/m[2].el.k */
+/* r3: coefficients */
+static void compute_r3(khepera_encoders_coefficients *c, const khepera_encoders_parameters *p,
+        real w)
+{
+    /* khepera.bg:17: m[2].fe*m[2].el.L/m[2].el.k */
+    const real fe_times_L_over_k_2 = p->m__2__fe * p->m__2__el__L / p->m__2__el__k;
+
+    /* m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) */
+    const real product_3 = p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
+
+    /* m[2].Je*m[2].el.Re/m[2].el.k */
+    const real Je_times_Re_over_k_2 = p->m__2__Je * p->m__2__el__Re / p->m__2__el__k;
+
+    /* m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    const real product_4 = p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* r3: factor of m[2].motor': m[2].el.k + m[2].fe*m[2].el.Re/m[2].el.k */
     c->r3_m__2__motor_1 = p->m__2__el__k + p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
 
     /* r3: factor of Fx[2]: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
@@ -339,14 +315,13 @@ static void compute_coefficients(khepera_encoders_coefficients *c,
 
     /* r3: factor of m[2].wheel''' */
     c->r3_w3_m__2__wheel = p->m__2__Js * p->m__2__el__L * w * w / p->m__2__el__k / p->m__2__ge__N;
+}
 
-    /* khepera_encoders.bg:31: 1/(4*m[2].tau0) */
-    c->scaled_one_over_tau0_2 = REAL(0.25) / p->m__2__tau0;
-
-    /* m[2].ge.N/(4*m[2].tau0) */
-    c->scaled_N_over_tau0_2 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0;
-
-    /* r4: factor of Fx[2]: m[2].R/m[2].ge.N */
+/* r4: coefficients */
+static void compute_r4(khepera_encoders_coefficients *c, const khepera_encoders_parameters *p,
+        real w)
+{
+    /* khepera_encoders.bg:31: r4: factor of Fx[2]: m[2].R/m[2].ge.N */
     c->r4_Fx__2 = p->m__2__R / p->m__2__ge__N;
 
     /* r4: factor of m[2].wheel': m[2].fs/m[2].ge.N */
@@ -362,20 +337,82 @@ static void compute_coefficients(khepera_encoders_coefficients *c,
      * m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0)): m[2].K*m[2].tau0*m[2].A */
     c->r4_tanh = p->m__2__K * p->m__2__tau0 * p->m__2__A;
 
+    /* r4: factor of m[2].wheel'' */
+    c->r4_w2_m__2__wheel = p->m__2__Js * w / p->m__2__ge__N;
+}
+
+/* r5: coefficients */
+static void compute_r5(khepera_encoders_coefficients *c, const khepera_encoders_parameters *p,
+        real w)
+{
+    /* khepera.bg:114: R_L^2 */
+    const real R_L = p->R_L * p->R_L;
+
+    /* r5: factor of load: R_L */
+    c->r5_load = p->R_L;
+
+    /* r5: factor of load' */
+    c->r5_w1_load = (-REAL(11.0) * R_L / REAL(200000000000.0) - REAL(1.0) / REAL(2000000.0)) * w;
+}
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(khepera_encoders_coefficients *c,
+        const khepera_encoders_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real sum = REAL(1.0) - pole;
+
+    /* (1 - (1 - pole)/2)*w */
+    const real product_5 = (REAL(1.0) - REAL(0.5) * sum) * w;
+
+    /* speed of m[1].motor for one count */
+    c->m__1__motor_gain = REAL(0.0015339807878856412) * product_5;
+
+    /* speed of m[1].wheel for one count */
+    c->m__1__wheel_gain = REAL(9.587379924285257e-05) * product_5;
+
+    /* khepera_encoders.bg:31: 1/(4*m[1].tau0) */
+    c->scaled_one_over_tau0 = REAL(0.25) / p->m__1__tau0;
+
+    /* m[1].ge.N/(4*m[1].tau0) */
+    c->scaled_N_over_tau0 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0;
+
+    /* m[1].wheel.int.x0 */
+    c->m__1__wheel__int__x0 = REAL(0.0);
+
+    /* m[1].motor.int.x0 */
+    c->m__1__motor__int__x0 = REAL(0.0);
+
+    /* 1/(4*m[2].tau0) */
+    c->scaled_one_over_tau0_2 = REAL(0.25) / p->m__2__tau0;
+
+    /* m[2].ge.N/(4*m[2].tau0) */
+    c->scaled_N_over_tau0_2 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0;
+
     /* m[2].wheel.int.x0 */
     c->m__2__wheel__int__x0 = REAL(0.0);
 
     /* m[2].motor.int.x0 */
     c->m__2__motor__int__x0 = REAL(0.0);
 
-    /* r4: factor of m[2].wheel'' */
-    c->r4_w2_m__2__wheel = p->m__2__Js * w / p->m__2__ge__N;
-
-    /* khepera.bg:114: r5: factor of load: R_L */
-    c->r5_load = p->R_L;
-
-    /* r5: factor of load' */
-    c->r5_w1_load = (-REAL(11.0) * R_L / REAL(200000000000.0) - REAL(1.0) / REAL(2000000.0)) * w;
+    compute_r1(c, p, w);
+    compute_filter(c, pole, turn, sum);
+    compute_r2(c, p, w);
+    compute_r3(c, p, w);
+    compute_r4(c, p, w);
+    compute_r5(c, p, w);
 }
 
 static bool coefficients_are_finite(const khepera_encoders_coefficients *c)
@@ -422,6 +459,63 @@ khepera_encoders_status khepera_encoders_configure(
     c->settle[KHEPERA_ENCODERS_R5] = samples(REAL(9.233413476451586), sample_time, bandwidth);
     c->longest = c->settle[KHEPERA_ENCODERS_R1];
     return KHEPERA_ENCODERS_OK;
+}
+
+/* stage 1 */
+static real run_r1_y1(const khepera_encoders_coefficients *c, khepera_encoders_memory *x,
+        const khepera_encoders_samples *s, real a, real b, real n1, real e1, real n2, real e2,
+        real n3)
+{
+    /* terms of order 0 */
+    const real g0 = s->U0__1 - c->r1_Fx__1 * s->Fx__1;
+
+    /* terms of order 1 */
+    const real g1 = c->r1_w1_Fx__1 * s->Fx__1;
+
+    /* degree 1 */
+    const real d1 = n1 + n2 - g1;
+
+    /* error of order 0 */
+    const real e0 = c->bend3 * g0;
+
+    /* degree 2 */
+    const real d2 = n2 + n3 - e1 - e0;
+
+    /* error of order 1 */
+    const real e1_2 = c->bend2 * g1;
+
+    /* degree 3 */
+    const real d3 = n3 + e1_2 - e1 - e2;
+
+    /* the filter multiplied out */
+    const real p3_1 = d3 + e2;
+    const real p2_1 = p3_1 + e2;
+    const real p2_2 = d2 - p3_1;
+    const real p1_1 = p2_1 + e2;
+    const real p1_2 = p2_2 - p2_1;
+    const real p1_3 = d1 - p2_2;
+
+    /* stage 4 */
+    const real u4 = g0 + n1 - p1_3;
+    const real y4 = x->r1_s4 + b * u4;
+    x->r1_s4 = a * y4 + b * u4;
+
+    /* stage 3 */
+    const real u3 = y4 + p1_3 - p1_2;
+    const real y3 = x->r1_s3 + b * u3;
+    x->r1_s3 = a * y3 + b * u3;
+
+    /* stage 2 */
+    const real u2 = y3 + p1_2 - p1_1;
+    const real y2 = x->r1_s2 + b * u2;
+    x->r1_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + p1_1 + e2;
+    const real y1 = x->r1_s1 + b * u1;
+    x->r1_s1 = a * y1 + b * u1;
+
+    return y1;
 }
 
 /* r1 on one sample.
@@ -480,106 +574,17 @@ static void run_r1(
     const real n3 = -c->r1_w3_m__1__motor * m__1__motor_speed_2
         - c->r1_w3_m__1__wheel * m__1__wheel_speed_2;
 
-    /* terms of order 0 */
-    const real g0 = s->U0__1 - c->r1_Fx__1 * s->Fx__1;
-
-    /* terms of order 1 */
-    const real g1 = c->r1_w1_Fx__1 * s->Fx__1;
-
-    /* degree 1 */
-    const real d1 = n1 + n2 - g1;
-
-    /* error of order 0 */
-    const real e0 = c->bend3 * g0;
-
-    /* degree 2 */
-    const real d2 = n2 + n3 - e1 - e0;
-
-    /* error of order 1 */
-    const real e1_2 = c->bend2 * g1;
-
-    /* degree 3 */
-    const real d3 = n3 + e1_2 - e1 - e2;
-
-    /* the filter multiplied out */
-    const real p3_1 = d3 + e2;
-    const real p2_1 = p3_1 + e2;
-    const real p2_2 = d2 - p3_1;
-    const real p1_1 = p2_1 + e2;
-    const real p1_2 = p2_2 - p2_1;
-    const real p1_3 = d1 - p2_2;
-
-    /* stage 4 */
-    const real u4 = g0 + n1 - p1_3;
-    const real y4 = x->r1_s4 + b * u4;
-    x->r1_s4 = a * y4 + b * u4;
-
-    /* stage 3 */
-    const real u3 = y4 + p1_3 - p1_2;
-    const real y3 = x->r1_s3 + b * u3;
-    x->r1_s3 = a * y3 + b * u3;
-
-    /* stage 2 */
-    const real u2 = y3 + p1_2 - p1_1;
-    const real y2 = x->r1_s2 + b * u2;
-    x->r1_s2 = a * y2 + b * u2;
-
-    /* stage 1 */
-    const real u1 = y2 + p1_1 + e2;
-    const real y1 = x->r1_s1 + b * u1;
-    x->r1_s1 = a * y1 + b * u1;
+    const real y1 = run_r1_y1(c, x, s, a, b, n1, e1, n2, e2, n3);
 
     r[KHEPERA_ENCODERS_R1] = y1 - e2;
 }
 
-/* r2 on one sample.
- * khepera_encoders.bg:31: r2 = (Fx[1]*m[1].R + m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel,
- * 2))/m[1].ge.N - m[1].K*(m[1].spring.q + m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
- * where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel)) */
-static void run_r2(
-    const khepera_encoders_coefficients *c, khepera_encoders_memory *x, const khepera_encoders_samples *s, real *r)
+/* error of order 1; stage 1 */
+static void run_r2_e1_to_y1(const khepera_encoders_coefficients *c, khepera_encoders_memory *x,
+        const khepera_encoders_samples *s, real a, real b, real change, real change_2, real *e1_out,
+        real *y1_out)
 {
-    const bool first = x->youngest == 0u && x->age[1] == 0u;
     const khepera_encoders_encoders *e = &x->e;
-
-    count_on(&x->e.m__1__motor_r2, s->m__1__motor, first);
-    count_on(&x->e.m__1__wheel_r2, s->m__1__wheel, first);
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r2_m__1__wheel_speed = REAL(0.0);
-        x->r2_s3 = REAL(0.0);
-        x->r2_s2 = REAL(0.0);
-        x->r2_s1 = REAL(0.0);
-    }
-
-    /* a stage of the filter; on the first sample it is at rest */
-    const real a = first ? -c->b : c->a;
-    const real b = first ? REAL(1.0) : c->b;
-
-    /* m[1].wheel */
-    const real m__1__wheel = c->m__1__wheel__int__x0
-        + REAL(9.587379924285257e-05) * (real)e->m__1__wheel_r2.total;
-
-    if (first) {
-        /* change of D(m[1].wheel) */
-        x->r2_start = m__1__wheel;
-    }
-
-    /* change of D(m[1].wheel) */
-    const real change = m__1__wheel - x->r2_start;
-
-    /* m[1].motor */
-    const real m__1__motor = c->m__1__motor__int__x0
-        + REAL(0.0015339807878856412) * (real)e->m__1__motor_r2.total;
-
-    if (first) {
-        /* change of D(m[1].motor) */
-        x->r2_start_2 = m__1__motor;
-    }
-
-    /* change of D(m[1].motor) */
-    const real change_2 = m__1__motor - x->r2_start_2;
 
     /* tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0)) */
     const real tanh_ = near_tanh(c->scaled_one_over_tau0 * change_2
@@ -632,7 +637,122 @@ static void run_r2(
     const real y1 = x->r2_s1 + b * u1;
     x->r2_s1 = a * y1 + b * u1;
 
+    *e1_out = e1;
+    *y1_out = y1;
+}
+
+/* r2 on one sample.
+ * khepera_encoders.bg:31: r2 = (Fx[1]*m[1].R + m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel,
+ * 2))/m[1].ge.N - m[1].K*(m[1].spring.q + m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
+ * where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel)) */
+static void run_r2(
+    const khepera_encoders_coefficients *c, khepera_encoders_memory *x, const khepera_encoders_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+    const khepera_encoders_encoders *e = &x->e;
+
+    count_on(&x->e.m__1__motor_r2, s->m__1__motor, first);
+    count_on(&x->e.m__1__wheel_r2, s->m__1__wheel, first);
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_m__1__wheel_speed = REAL(0.0);
+        x->r2_s3 = REAL(0.0);
+        x->r2_s2 = REAL(0.0);
+        x->r2_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* m[1].wheel */
+    const real m__1__wheel = c->m__1__wheel__int__x0
+        + REAL(9.587379924285257e-05) * (real)e->m__1__wheel_r2.total;
+
+    if (first) {
+        /* change of D(m[1].wheel) */
+        x->r2_start = m__1__wheel;
+    }
+
+    /* change of D(m[1].wheel) */
+    const real change = m__1__wheel - x->r2_start;
+
+    /* m[1].motor */
+    const real m__1__motor = c->m__1__motor__int__x0
+        + REAL(0.0015339807878856412) * (real)e->m__1__motor_r2.total;
+
+    if (first) {
+        /* change of D(m[1].motor) */
+        x->r2_start_2 = m__1__motor;
+    }
+
+    /* change of D(m[1].motor) */
+    const real change_2 = m__1__motor - x->r2_start_2;
+
+    real e1;
+    real y1;
+
+    run_r2_e1_to_y1(c, x, s, a, b, change, change_2, &e1, &y1);
+
     r[KHEPERA_ENCODERS_R2] = y1 - e1;
+}
+
+/* stage 1 */
+static real run_r3_y1(const khepera_encoders_coefficients *c, khepera_encoders_memory *x,
+        const khepera_encoders_samples *s, real a, real b, real n1, real e1, real n2, real e2,
+        real n3)
+{
+    /* terms of order 0 */
+    const real g0 = s->U0__2 - c->r3_Fx__2 * s->Fx__2;
+
+    /* terms of order 1 */
+    const real g1 = c->r3_w1_Fx__2 * s->Fx__2;
+
+    /* degree 1 */
+    const real d1 = n1 + n2 - g1;
+
+    /* error of order 0 */
+    const real e0 = c->bend3 * g0;
+
+    /* degree 2 */
+    const real d2 = n2 + n3 - e1 - e0;
+
+    /* error of order 1 */
+    const real e1_2 = c->bend2 * g1;
+
+    /* degree 3 */
+    const real d3 = n3 + e1_2 - e1 - e2;
+
+    /* the filter multiplied out */
+    const real p3_1 = d3 + e2;
+    const real p2_1 = p3_1 + e2;
+    const real p2_2 = d2 - p3_1;
+    const real p1_1 = p2_1 + e2;
+    const real p1_2 = p2_2 - p2_1;
+    const real p1_3 = d1 - p2_2;
+
+    /* stage 4 */
+    const real u4 = g0 + n1 - p1_3;
+    const real y4 = x->r3_s4 + b * u4;
+    x->r3_s4 = a * y4 + b * u4;
+
+    /* stage 3 */
+    const real u3 = y4 + p1_3 - p1_2;
+    const real y3 = x->r3_s3 + b * u3;
+    x->r3_s3 = a * y3 + b * u3;
+
+    /* stage 2 */
+    const real u2 = y3 + p1_2 - p1_1;
+    const real y2 = x->r3_s2 + b * u2;
+    x->r3_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + p1_1 + e2;
+    const real y1 = x->r3_s1 + b * u1;
+    x->r3_s1 = a * y1 + b * u1;
+
+    return y1;
 }
 
 /* r3 on one sample.
@@ -691,106 +811,17 @@ static void run_r3(
     const real n3 = -c->r3_w3_m__2__motor * m__2__motor_speed_2
         - c->r3_w3_m__2__wheel * m__2__wheel_speed_2;
 
-    /* terms of order 0 */
-    const real g0 = s->U0__2 - c->r3_Fx__2 * s->Fx__2;
-
-    /* terms of order 1 */
-    const real g1 = c->r3_w1_Fx__2 * s->Fx__2;
-
-    /* degree 1 */
-    const real d1 = n1 + n2 - g1;
-
-    /* error of order 0 */
-    const real e0 = c->bend3 * g0;
-
-    /* degree 2 */
-    const real d2 = n2 + n3 - e1 - e0;
-
-    /* error of order 1 */
-    const real e1_2 = c->bend2 * g1;
-
-    /* degree 3 */
-    const real d3 = n3 + e1_2 - e1 - e2;
-
-    /* the filter multiplied out */
-    const real p3_1 = d3 + e2;
-    const real p2_1 = p3_1 + e2;
-    const real p2_2 = d2 - p3_1;
-    const real p1_1 = p2_1 + e2;
-    const real p1_2 = p2_2 - p2_1;
-    const real p1_3 = d1 - p2_2;
-
-    /* stage 4 */
-    const real u4 = g0 + n1 - p1_3;
-    const real y4 = x->r3_s4 + b * u4;
-    x->r3_s4 = a * y4 + b * u4;
-
-    /* stage 3 */
-    const real u3 = y4 + p1_3 - p1_2;
-    const real y3 = x->r3_s3 + b * u3;
-    x->r3_s3 = a * y3 + b * u3;
-
-    /* stage 2 */
-    const real u2 = y3 + p1_2 - p1_1;
-    const real y2 = x->r3_s2 + b * u2;
-    x->r3_s2 = a * y2 + b * u2;
-
-    /* stage 1 */
-    const real u1 = y2 + p1_1 + e2;
-    const real y1 = x->r3_s1 + b * u1;
-    x->r3_s1 = a * y1 + b * u1;
+    const real y1 = run_r3_y1(c, x, s, a, b, n1, e1, n2, e2, n3);
 
     r[KHEPERA_ENCODERS_R3] = y1 - e2;
 }
 
-/* r4 on one sample.
- * khepera_encoders.bg:31: r4 = (Fx[2]*m[2].R + m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel,
- * 2))/m[2].ge.N - m[2].K*(m[2].spring.q + m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
- * where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel)) */
-static void run_r4(
-    const khepera_encoders_coefficients *c, khepera_encoders_memory *x, const khepera_encoders_samples *s, real *r)
+/* error of order 1; stage 1 */
+static void run_r4_e1_to_y1(const khepera_encoders_coefficients *c, khepera_encoders_memory *x,
+        const khepera_encoders_samples *s, real a, real b, real change, real change_2, real *e1_out,
+        real *y1_out)
 {
-    const bool first = x->youngest == 0u && x->age[3] == 0u;
     const khepera_encoders_encoders *e = &x->e;
-
-    count_on(&x->e.m__2__motor_r4, s->m__2__motor, first);
-    count_on(&x->e.m__2__wheel_r4, s->m__2__wheel, first);
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r4_m__2__wheel_speed = REAL(0.0);
-        x->r4_s3 = REAL(0.0);
-        x->r4_s2 = REAL(0.0);
-        x->r4_s1 = REAL(0.0);
-    }
-
-    /* a stage of the filter; on the first sample it is at rest */
-    const real a = first ? -c->b : c->a;
-    const real b = first ? REAL(1.0) : c->b;
-
-    /* m[2].wheel */
-    const real m__2__wheel = c->m__2__wheel__int__x0
-        + REAL(9.587379924285257e-05) * (real)e->m__2__wheel_r4.total;
-
-    if (first) {
-        /* change of D(m[2].wheel) */
-        x->r4_start = m__2__wheel;
-    }
-
-    /* change of D(m[2].wheel) */
-    const real change = m__2__wheel - x->r4_start;
-
-    /* m[2].motor */
-    const real m__2__motor = c->m__2__motor__int__x0
-        + REAL(0.0015339807878856412) * (real)e->m__2__motor_r4.total;
-
-    if (first) {
-        /* change of D(m[2].motor) */
-        x->r4_start_2 = m__2__motor;
-    }
-
-    /* change of D(m[2].motor) */
-    const real change_2 = m__2__motor - x->r4_start_2;
 
     /* tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0)) */
     const real tanh_ = near_tanh(c->scaled_one_over_tau0_2 * change_2
@@ -842,6 +873,64 @@ static void run_r4(
     const real u1 = y2 + p1_1 + e1;
     const real y1 = x->r4_s1 + b * u1;
     x->r4_s1 = a * y1 + b * u1;
+
+    *e1_out = e1;
+    *y1_out = y1;
+}
+
+/* r4 on one sample.
+ * khepera_encoders.bg:31: r4 = (Fx[2]*m[2].R + m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel,
+ * 2))/m[2].ge.N - m[2].K*(m[2].spring.q + m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
+ * where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel)) */
+static void run_r4(
+    const khepera_encoders_coefficients *c, khepera_encoders_memory *x, const khepera_encoders_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[3] == 0u;
+    const khepera_encoders_encoders *e = &x->e;
+
+    count_on(&x->e.m__2__motor_r4, s->m__2__motor, first);
+    count_on(&x->e.m__2__wheel_r4, s->m__2__wheel, first);
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r4_m__2__wheel_speed = REAL(0.0);
+        x->r4_s3 = REAL(0.0);
+        x->r4_s2 = REAL(0.0);
+        x->r4_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* m[2].wheel */
+    const real m__2__wheel = c->m__2__wheel__int__x0
+        + REAL(9.587379924285257e-05) * (real)e->m__2__wheel_r4.total;
+
+    if (first) {
+        /* change of D(m[2].wheel) */
+        x->r4_start = m__2__wheel;
+    }
+
+    /* change of D(m[2].wheel) */
+    const real change = m__2__wheel - x->r4_start;
+
+    /* m[2].motor */
+    const real m__2__motor = c->m__2__motor__int__x0
+        + REAL(0.0015339807878856412) * (real)e->m__2__motor_r4.total;
+
+    if (first) {
+        /* change of D(m[2].motor) */
+        x->r4_start_2 = m__2__motor;
+    }
+
+    /* change of D(m[2].motor) */
+    const real change_2 = m__2__motor - x->r4_start_2;
+
+    real e1;
+    real y1;
+
+    run_r4_e1_to_y1(c, x, s, a, b, change, change_2, &e1, &y1);
 
     r[KHEPERA_ENCODERS_R4] = y1 - e1;
 }
@@ -1111,139 +1200,14 @@ const khepera_encoders_threshold_coefficients khepera_encoders_threshold_nominal
     654u                             /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *c,
-        const khepera_encoders_parameters *p, real sample_time, real bandwidth)
+/* r1_w2 to r1_w3: coefficients */
+static void bound_compute_r1_w2_to_r1_w3(khepera_encoders_threshold_coefficients *c, real product_2,
+        real product_8, real product_13, real product_14)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
-    /* khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k */
-    const real fe_times_Re_over_k = p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
-
-    /* m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
-    const real product = p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
-
-    /* m[1].fs*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
-    const real product_2 = p->m__1__fs * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
-
-    /* khepera_encoders.bg:31: m[1].K*m[1].tau0*m[1].A */
-    const real K_times_tau0_times_A = p->m__1__K * p->m__1__tau0 * p->m__1__A;
-
-    /* khepera.bg:17: m[2].fe*m[2].el.Re/m[2].el.k */
-    const real fe_times_Re_over_k_2 = p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
-
-    /* m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
-    const real product_3 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
-
-    /* m[2].fs*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
-    const real product_4 = p->m__2__fs * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
-
-    /* khepera_encoders.bg:31: m[2].K*m[2].tau0*m[2].A */
-    const real K_times_tau0_times_A_2 = p->m__2__K * p->m__2__tau0 * p->m__2__A;
-
-    /* 1 - pole */
-    const real sum = REAL(1.0) - pole;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* (1 - (1 - pole)/2)*w */
-    const real product_5 = (REAL(1.0) - REAL(0.5) * sum) * w;
-
-    /* khepera.bg:17: m[1].Je*m[1].el.L*w^2/m[1].el.k */
-    const real product_6 = p->m__1__Je * p->m__1__el__L * w * w / p->m__1__el__k;
-
-    /* m[1].R*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
-    const real product_7 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
-
-    /* m[1].Js*m[1].el.L*w^2/(m[1].el.k*m[1].ge.N) */
-    const real product_8 = p->m__1__Js * p->m__1__el__L * w * w / p->m__1__el__k / p->m__1__ge__N;
-
-    /* m[2].Je*m[2].el.L*w^2/m[2].el.k */
-    const real product_9 = p->m__2__Je * p->m__2__el__L * w * w / p->m__2__el__k;
-
-    /* m[2].R*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
-    const real product_10 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
-
-    /* m[2].Js*m[2].el.L*w^2/(m[2].el.k*m[2].ge.N) */
-    const real product_11 = p->m__2__Js * p->m__2__el__L * w * w / p->m__2__el__k / p->m__2__ge__N;
-
-    /* m[1].fe*m[1].el.L*w/m[1].el.k */
-    const real product_12 = p->m__1__fe * p->m__1__el__L * w / p->m__1__el__k;
-
-    /* m[1].Js*m[1].el.Re*w/(m[1].el.k*m[1].ge.N) */
-    const real product_13 = p->m__1__Js * p->m__1__el__Re * w / p->m__1__el__k / p->m__1__ge__N;
-
-    /* m[1].fs*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
-    const real product_14 = p->m__1__fs * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
-
-    /* m[1].Je*m[1].el.Re*w/m[1].el.k */
-    const real product_15 = p->m__1__Je * p->m__1__el__Re * w / p->m__1__el__k;
-
-    /* khepera_encoders.bg:31: m[1].K*m[1].tau0^2*m[1].A */
-    const real K_times_tau0_times_A_3 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__A;
-
-    /* m[1].K*m[1].tau0^3*m[1].A */
-    const real K_times_tau0_times_A_4 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__tau0
-            * p->m__1__A;
-
-    /* khepera.bg:17: m[2].fe*m[2].el.L*w/m[2].el.k */
-    const real product_16 = p->m__2__fe * p->m__2__el__L * w / p->m__2__el__k;
-
-    /* m[2].Js*m[2].el.Re*w/(m[2].el.k*m[2].ge.N) */
-    const real product_17 = p->m__2__Js * p->m__2__el__Re * w / p->m__2__el__k / p->m__2__ge__N;
-
-    /* m[2].fs*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
-    const real product_18 = p->m__2__fs * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
-
-    /* m[2].Je*m[2].el.Re*w/m[2].el.k */
-    const real product_19 = p->m__2__Je * p->m__2__el__Re * w / p->m__2__el__k;
-
-    /* khepera_encoders.bg:31: m[2].K*m[2].tau0^2*m[2].A */
-    const real K_times_tau0_times_A_5 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__A;
-
-    /* m[2].K*m[2].tau0^3*m[2].A */
-    const real K_times_tau0_times_A_6 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__tau0
-            * p->m__2__A;
-
-    /* khepera.bg:114: R_L^2*w */
-    const real R_L_times_w = p->R_L * p->R_L * w;
-
-    /* khepera.bg:17: r1_w1: factor of m[1].motor' */
-    c->r1_w1_w1_m__1__motor = fe_times_Re_over_k / REAL(10.0);
-
-    /* speed of m[1].motor for one count */
-    c->m__1__motor_gain = REAL(0.0015339807878856412) * product_5;
-
-    /* filter: what is left of a memory a sample later */
-    c->a = pole;
-
-    /* filter: weight of a sample, new and a sample later */
-    c->b = REAL(0.5) * sum;
-
-    /* khepera.bg:17: r1_w1: factor of m[1].motor'' */
-    c->r1_w1_w2_m__1__motor = product_12 / REAL(10.0);
-
-    /* filter: 1 * (w*sample_time)^2/12 */
-    c->bend1 = turn_2 / REAL(12.0);
-
     /* khepera.bg:17: r1_w2: factor of m[1].wheel'' */
     c->r1_w2_w2_m__1__wheel = product_13 / REAL(50.0);
 
-    /* speed of m[1].wheel for one count */
-    c->m__1__wheel_gain = REAL(9.587379924285257e-05) * product_5;
-
-    /* khepera.bg:17: r1_w2: factor of m[1].wheel''' */
+    /* r1_w2: factor of m[1].wheel''' */
     c->r1_w2_w3_m__1__wheel = product_8 / REAL(50.0);
 
     /* r1_w3: factor of m[1].wheel' */
@@ -1251,8 +1215,13 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r1_w3: factor of m[1].wheel'' */
     c->r1_w3_w2_m__1__wheel = product_14 / REAL(10.0);
+}
 
-    /* r1_w4: factor of m[1].wheel' */
+/* r1_w4: coefficients */
+static void bound_compute_r1_w4(khepera_encoders_threshold_coefficients *c, real fe_times_Re_over_k,
+        real product, real product_2, real product_13, real product_15)
+{
+    /* khepera.bg:17: r1_w4: factor of m[1].wheel' */
     c->r1_w4_w1_m__1__wheel = product_2 / REAL(20.0);
 
     /* r1_w4: factor of m[1].wheel'' */
@@ -1266,10 +1235,13 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r1_w4: factor of m[1].motor'' */
     c->r1_w4_w2_m__1__motor = product_15 / REAL(20.0);
+}
 
-    /* filter: 2 * (w*sample_time)^2/12 */
-    c->bend2 = turn_2 / REAL(6.0);
-
+/* r1_w5: coefficients */
+static void bound_compute_r1_w5(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w, real product, real product_2, real product_6,
+        real product_7)
+{
     /* khepera.bg:17: r1_w5: factor of m[1].motor' */
     c->r1_w5_w1_m__1__motor = p->m__1__el__k
             * (p->m__1__fe * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
@@ -1297,20 +1269,13 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r1_w5: factor of Fx[1]' */
     c->r1_w5_w1_Fx__1 = product_7 / REAL(50.0);
+}
 
-    /* filter: 3 * (w*sample_time)^2/12 */
-    c->bend3 = REAL(0.25) * turn_2;
-
-    /* khepera.bg:17: r1_w6: factor of m[1].motor' */
-    c->r1_w6_w1_m__1__motor = fe_times_Re_over_k / REAL(142.0);
-
-    /* r1_w7: factor of m[1].motor' */
-    c->r1_w7_w1_m__1__motor = fe_times_Re_over_k / REAL(355.0);
-
-    /* r1_w7: factor of m[1].motor'' */
-    c->r1_w7_w2_m__1__motor = product_12 / REAL(355.0);
-
-    /* r1_w8: factor of m[1].wheel'' */
+/* r1_w8 to r1_w11: coefficients */
+static void bound_compute_r1_w8_to_r1_w11(khepera_encoders_threshold_coefficients *c,
+        real product_2, real product_8, real product_13, real product_14)
+{
+    /* khepera.bg:17: r1_w8: factor of m[1].wheel'' */
     c->r1_w8_w2_m__1__wheel = product_13 / REAL(710.0);
 
     /* r1_w9: factor of m[1].wheel'' */
@@ -1327,8 +1292,13 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r1_w11: factor of m[1].wheel'' */
     c->r1_w11_w2_m__1__wheel = product_14 / REAL(355.0);
+}
 
-    /* r1_w12: factor of m[1].motor' */
+/* r1_w12: coefficients */
+static void bound_compute_r1_w12(khepera_encoders_threshold_coefficients *c,
+        real fe_times_Re_over_k, real product, real product_2, real product_15)
+{
+    /* khepera.bg:17: r1_w12: factor of m[1].motor' */
     c->r1_w12_w1_m__1__motor = fe_times_Re_over_k / REAL(710.0);
 
     /* r1_w12: factor of m[1].motor'' */
@@ -1339,8 +1309,14 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r1_w12: factor of Fx[1] */
     c->r1_w12_Fx__1 = product / REAL(710.0);
+}
 
-    /* r1_w13: factor of m[1].motor' */
+/* r1_w13: coefficients */
+static void bound_compute_r1_w13(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w, real fe_times_Re_over_k, real product,
+        real product_2, real product_6, real product_7)
+{
+    /* khepera.bg:17: r1_w13: factor of m[1].motor' */
     c->r1_w13_w1_m__1__motor = fe_times_Re_over_k / REAL(1775.0);
 
     /* r1_w13: factor of m[1].motor'' */
@@ -1370,7 +1346,70 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r1_w13: factor of Fx[1]' */
     c->r1_w13_w1_Fx__1 = product_7 / REAL(1775.0);
+}
 
+/* r1: coefficients */
+static void bound_compute_r1_2(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w)
+{
+    /* khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k */
+    const real fe_times_Re_over_k = p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
+
+    /* m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    const real product = p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* m[1].fs*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    const real product_2 = p->m__1__fs * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* m[1].Je*m[1].el.L*w^2/m[1].el.k */
+    const real product_6 = p->m__1__Je * p->m__1__el__L * w * w / p->m__1__el__k;
+
+    /* m[1].R*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
+    const real product_7 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
+
+    /* m[1].Js*m[1].el.L*w^2/(m[1].el.k*m[1].ge.N) */
+    const real product_8 = p->m__1__Js * p->m__1__el__L * w * w / p->m__1__el__k / p->m__1__ge__N;
+
+    /* m[1].fe*m[1].el.L*w/m[1].el.k */
+    const real product_12 = p->m__1__fe * p->m__1__el__L * w / p->m__1__el__k;
+
+    /* m[1].Js*m[1].el.Re*w/(m[1].el.k*m[1].ge.N) */
+    const real product_13 = p->m__1__Js * p->m__1__el__Re * w / p->m__1__el__k / p->m__1__ge__N;
+
+    /* m[1].fs*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
+    const real product_14 = p->m__1__fs * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
+
+    /* m[1].Je*m[1].el.Re*w/m[1].el.k */
+    const real product_15 = p->m__1__Je * p->m__1__el__Re * w / p->m__1__el__k;
+
+    /* r1_w1: factor of m[1].motor' */
+    c->r1_w1_w1_m__1__motor = fe_times_Re_over_k / REAL(10.0);
+
+    /* r1_w1: factor of m[1].motor'' */
+    c->r1_w1_w2_m__1__motor = product_12 / REAL(10.0);
+
+    bound_compute_r1_w2_to_r1_w3(c, product_2, product_8, product_13, product_14);
+    bound_compute_r1_w4(c, fe_times_Re_over_k, product, product_2, product_13, product_15);
+    bound_compute_r1_w5(c, p, w, product, product_2, product_6, product_7);
+
+    /* khepera.bg:17: r1_w6: factor of m[1].motor' */
+    c->r1_w6_w1_m__1__motor = fe_times_Re_over_k / REAL(142.0);
+
+    /* r1_w7: factor of m[1].motor' */
+    c->r1_w7_w1_m__1__motor = fe_times_Re_over_k / REAL(355.0);
+
+    /* r1_w7: factor of m[1].motor'' */
+    c->r1_w7_w2_m__1__motor = product_12 / REAL(355.0);
+
+    bound_compute_r1_w8_to_r1_w11(c, product_2, product_8, product_13, product_14);
+    bound_compute_r1_w12(c, fe_times_Re_over_k, product, product_2, product_15);
+    bound_compute_r1_w13(c, p, w, fe_times_Re_over_k, product, product_2, product_6, product_7);
+}
+
+/* r1: coefficients */
+static void bound_compute_r1(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w)
+{
     /* khepera_encoders.bg:31: m[1].wheel.int.x0 */
     c->m__1__wheel__int__x0 = REAL(0.0);
 
@@ -1383,6 +1422,80 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
     /* m[1].ge.N/(4*m[1].tau0) */
     c->scaled_N_over_tau0 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0;
 
+    /* 1/(4*m[1].tau0^2) */
+    c->scaled_one_over_tau0_2 = REAL(0.25) / p->m__1__tau0 / p->m__1__tau0;
+
+    /* m[1].ge.N/(4*m[1].tau0^2) */
+    c->scaled_N_over_tau0_2 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0 / p->m__1__tau0;
+
+    /* 1/(2*m[1].tau0^3) */
+    c->scaled_one_over_tau0_3 = REAL(0.5) / p->m__1__tau0 / p->m__1__tau0 / p->m__1__tau0;
+
+    /* m[1].ge.N/(2*m[1].tau0^3) */
+    c->scaled_N_over_tau0_3 = REAL(0.5) * p->m__1__ge__N / p->m__1__tau0 / p->m__1__tau0
+            / p->m__1__tau0;
+
+    /* m[2].wheel.int.x0 */
+    c->m__2__wheel__int__x0 = REAL(0.0);
+
+    /* m[2].motor.int.x0 */
+    c->m__2__motor__int__x0 = REAL(0.0);
+
+    /* 1/(4*m[2].tau0) */
+    c->scaled_one_over_tau0_4 = REAL(0.25) / p->m__2__tau0;
+
+    /* m[2].ge.N/(4*m[2].tau0) */
+    c->scaled_N_over_tau0_4 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0;
+
+    /* 1/(4*m[2].tau0^2) */
+    c->scaled_one_over_tau0_5 = REAL(0.25) / p->m__2__tau0 / p->m__2__tau0;
+
+    /* m[2].ge.N/(4*m[2].tau0^2) */
+    c->scaled_N_over_tau0_5 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0 / p->m__2__tau0;
+
+    /* 1/(2*m[2].tau0^3) */
+    c->scaled_one_over_tau0_6 = REAL(0.5) / p->m__2__tau0 / p->m__2__tau0 / p->m__2__tau0;
+
+    /* m[2].ge.N/(2*m[2].tau0^3) */
+    c->scaled_N_over_tau0_6 = REAL(0.5) * p->m__2__ge__N / p->m__2__tau0 / p->m__2__tau0
+            / p->m__2__tau0;
+
+    bound_compute_r1_2(c, p, w);
+}
+
+/* filter: coefficients */
+static void bound_compute_filter(khepera_encoders_threshold_coefficients *c, real pole, real turn,
+        real sum)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * sum;
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn_2 / REAL(12.0);
+
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = turn_2 / REAL(6.0);
+
+    /* filter: 3 * (w*sample_time)^2/12 */
+    c->bend3 = REAL(0.25) * turn_2;
+}
+
+/* r2: coefficients */
+static void bound_compute_r2(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w)
+{
+    /* khepera_encoders.bg:31: m[1].K*m[1].tau0*m[1].A */
+    const real K_times_tau0_times_A = p->m__1__K * p->m__1__tau0 * p->m__1__A;
+
+    /* m[1].K*m[1].tau0^2*m[1].A */
+    const real K_times_tau0_times_A_3 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__A;
+
     /* r2_w1: factor of Int(D(m[1].motor)) */
     c->r2_w1_integral = p->m__1__K / REAL(20.0);
 
@@ -1392,12 +1505,6 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
     /* r2_w1: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
      * m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0)) */
     c->r2_w1_tanh = K_times_tau0_times_A / REAL(20.0);
-
-    /* 1/(4*m[1].tau0^2) */
-    c->scaled_one_over_tau0_2 = REAL(0.25) / p->m__1__tau0 / p->m__1__tau0;
-
-    /* m[1].ge.N/(4*m[1].tau0^2) */
-    c->scaled_N_over_tau0_2 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0 / p->m__1__tau0;
 
     /* r2_w2: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) -
      * Int(D(m[1].motor))/(4*m[1].tau0^2))*(1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
@@ -1419,12 +1526,9 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
      * m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0))^2) */
     c->r2_w5_product = K_times_tau0_times_A_3 / REAL(360.0);
 
-    /* 1/(2*m[1].tau0^3) */
-    c->scaled_one_over_tau0_3 = REAL(0.5) / p->m__1__tau0 / p->m__1__tau0 / p->m__1__tau0;
-
-    /* m[1].ge.N/(2*m[1].tau0^3) */
-    c->scaled_N_over_tau0_3 = REAL(0.5) * p->m__1__ge__N / p->m__1__tau0 / p->m__1__tau0
-            / p->m__1__tau0;
+    /* m[1].K*m[1].tau0^3*m[1].A */
+    const real K_times_tau0_times_A_4 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__tau0
+            * p->m__1__A;
 
     /* r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
      * m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0))^2)*(Int(D(m[1].motor))/(2*m[1].tau0^3) -
@@ -1433,14 +1537,13 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r2_w6: factor of a product */
     c->r2_w6_product_2 = K_times_tau0_times_A_4 / REAL(360.0);
+}
 
-    /* khepera.bg:17: r3_w1: factor of m[2].motor' */
-    c->r3_w1_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(10.0);
-
-    /* r3_w1: factor of m[2].motor'' */
-    c->r3_w1_w2_m__2__motor = product_16 / REAL(10.0);
-
-    /* r3_w2: factor of m[2].wheel'' */
+/* r3_w2 to r3_w3: coefficients */
+static void bound_compute_r3_w2_to_r3_w3(khepera_encoders_threshold_coefficients *c, real product_4,
+        real product_11, real product_17, real product_18)
+{
+    /* khepera.bg:17: r3_w2: factor of m[2].wheel'' */
     c->r3_w2_w2_m__2__wheel = product_17 / REAL(50.0);
 
     /* r3_w2: factor of m[2].wheel''' */
@@ -1451,8 +1554,13 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r3_w3: factor of m[2].wheel'' */
     c->r3_w3_w2_m__2__wheel = product_18 / REAL(10.0);
+}
 
-    /* r3_w4: factor of m[2].wheel' */
+/* r3_w4: coefficients */
+static void bound_compute_r3_w4(khepera_encoders_threshold_coefficients *c,
+        real fe_times_Re_over_k_2, real product_3, real product_4, real product_17, real product_19)
+{
+    /* khepera.bg:17: r3_w4: factor of m[2].wheel' */
     c->r3_w4_w1_m__2__wheel = product_4 / REAL(20.0);
 
     /* r3_w4: factor of m[2].wheel'' */
@@ -1466,8 +1574,14 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r3_w4: factor of m[2].motor'' */
     c->r3_w4_w2_m__2__motor = product_19 / REAL(20.0);
+}
 
-    /* r3_w5: factor of m[2].motor' */
+/* r3_w5: coefficients */
+static void bound_compute_r3_w5(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w, real product_3, real product_4,
+        real product_9, real product_10)
+{
+    /* khepera.bg:17: r3_w5: factor of m[2].motor' */
     c->r3_w5_w1_m__2__motor = p->m__2__el__k
             * (p->m__2__fe * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
             - REAL(1.0)) / REAL(50.0);
@@ -1494,17 +1608,13 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r3_w5: factor of Fx[2]' */
     c->r3_w5_w1_Fx__2 = product_10 / REAL(50.0);
+}
 
-    /* r3_w6: factor of m[2].motor' */
-    c->r3_w6_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(142.0);
-
-    /* r3_w7: factor of m[2].motor' */
-    c->r3_w7_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(355.0);
-
-    /* r3_w7: factor of m[2].motor'' */
-    c->r3_w7_w2_m__2__motor = product_16 / REAL(355.0);
-
-    /* r3_w8: factor of m[2].wheel'' */
+/* r3_w8 to r3_w11: coefficients */
+static void bound_compute_r3_w8_to_r3_w11(khepera_encoders_threshold_coefficients *c,
+        real product_4, real product_11, real product_17, real product_18)
+{
+    /* khepera.bg:17: r3_w8: factor of m[2].wheel'' */
     c->r3_w8_w2_m__2__wheel = product_17 / REAL(710.0);
 
     /* r3_w9: factor of m[2].wheel'' */
@@ -1521,8 +1631,13 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r3_w11: factor of m[2].wheel'' */
     c->r3_w11_w2_m__2__wheel = product_18 / REAL(355.0);
+}
 
-    /* r3_w12: factor of m[2].motor' */
+/* r3_w12: coefficients */
+static void bound_compute_r3_w12(khepera_encoders_threshold_coefficients *c,
+        real fe_times_Re_over_k_2, real product_3, real product_4, real product_19)
+{
+    /* khepera.bg:17: r3_w12: factor of m[2].motor' */
     c->r3_w12_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(710.0);
 
     /* r3_w12: factor of m[2].motor'' */
@@ -1533,8 +1648,14 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r3_w12: factor of Fx[2] */
     c->r3_w12_Fx__2 = product_3 / REAL(710.0);
+}
 
-    /* r3_w13: factor of m[2].motor' */
+/* r3_w13: coefficients */
+static void bound_compute_r3_w13(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w, real fe_times_Re_over_k_2, real product_3,
+        real product_4, real product_9, real product_10)
+{
+    /* khepera.bg:17: r3_w13: factor of m[2].motor' */
     c->r3_w13_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(1775.0);
 
     /* r3_w13: factor of m[2].motor'' */
@@ -1564,18 +1685,76 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r3_w13: factor of Fx[2]' */
     c->r3_w13_w1_Fx__2 = product_10 / REAL(1775.0);
+}
 
-    /* khepera_encoders.bg:31: m[2].wheel.int.x0 */
-    c->m__2__wheel__int__x0 = REAL(0.0);
+/* r3: coefficients */
+static void bound_compute_r3(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w)
+{
+    /* khepera.bg:17: m[2].fe*m[2].el.Re/m[2].el.k */
+    const real fe_times_Re_over_k_2 = p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
 
-    /* m[2].motor.int.x0 */
-    c->m__2__motor__int__x0 = REAL(0.0);
+    /* m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    const real product_3 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
 
-    /* 1/(4*m[2].tau0) */
-    c->scaled_one_over_tau0_4 = REAL(0.25) / p->m__2__tau0;
+    /* m[2].fs*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    const real product_4 = p->m__2__fs * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
 
-    /* m[2].ge.N/(4*m[2].tau0) */
-    c->scaled_N_over_tau0_4 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0;
+    /* m[2].Je*m[2].el.L*w^2/m[2].el.k */
+    const real product_9 = p->m__2__Je * p->m__2__el__L * w * w / p->m__2__el__k;
+
+    /* m[2].R*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
+    const real product_10 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
+
+    /* m[2].Js*m[2].el.L*w^2/(m[2].el.k*m[2].ge.N) */
+    const real product_11 = p->m__2__Js * p->m__2__el__L * w * w / p->m__2__el__k / p->m__2__ge__N;
+
+    /* m[2].fe*m[2].el.L*w/m[2].el.k */
+    const real product_16 = p->m__2__fe * p->m__2__el__L * w / p->m__2__el__k;
+
+    /* m[2].Js*m[2].el.Re*w/(m[2].el.k*m[2].ge.N) */
+    const real product_17 = p->m__2__Js * p->m__2__el__Re * w / p->m__2__el__k / p->m__2__ge__N;
+
+    /* m[2].fs*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
+    const real product_18 = p->m__2__fs * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
+
+    /* m[2].Je*m[2].el.Re*w/m[2].el.k */
+    const real product_19 = p->m__2__Je * p->m__2__el__Re * w / p->m__2__el__k;
+
+    /* r3_w1: factor of m[2].motor' */
+    c->r3_w1_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(10.0);
+
+    /* r3_w1: factor of m[2].motor'' */
+    c->r3_w1_w2_m__2__motor = product_16 / REAL(10.0);
+
+    bound_compute_r3_w2_to_r3_w3(c, product_4, product_11, product_17, product_18);
+    bound_compute_r3_w4(c, fe_times_Re_over_k_2, product_3, product_4, product_17, product_19);
+    bound_compute_r3_w5(c, p, w, product_3, product_4, product_9, product_10);
+
+    /* khepera.bg:17: r3_w6: factor of m[2].motor' */
+    c->r3_w6_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(142.0);
+
+    /* r3_w7: factor of m[2].motor' */
+    c->r3_w7_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(355.0);
+
+    /* r3_w7: factor of m[2].motor'' */
+    c->r3_w7_w2_m__2__motor = product_16 / REAL(355.0);
+
+    bound_compute_r3_w8_to_r3_w11(c, product_4, product_11, product_17, product_18);
+    bound_compute_r3_w12(c, fe_times_Re_over_k_2, product_3, product_4, product_19);
+    bound_compute_r3_w13(c, p, w, fe_times_Re_over_k_2, product_3, product_4, product_9,
+            product_10);
+}
+
+/* r4: coefficients */
+static void bound_compute_r4(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w)
+{
+    /* khepera_encoders.bg:31: m[2].K*m[2].tau0*m[2].A */
+    const real K_times_tau0_times_A_2 = p->m__2__K * p->m__2__tau0 * p->m__2__A;
+
+    /* m[2].K*m[2].tau0^2*m[2].A */
+    const real K_times_tau0_times_A_5 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__A;
 
     /* r4_w1: factor of Int(D(m[2].motor)) */
     c->r4_w1_integral = p->m__2__K / REAL(20.0);
@@ -1586,12 +1765,6 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
     /* r4_w1: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
      * m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0)) */
     c->r4_w1_tanh = K_times_tau0_times_A_2 / REAL(20.0);
-
-    /* 1/(4*m[2].tau0^2) */
-    c->scaled_one_over_tau0_5 = REAL(0.25) / p->m__2__tau0 / p->m__2__tau0;
-
-    /* m[2].ge.N/(4*m[2].tau0^2) */
-    c->scaled_N_over_tau0_5 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0 / p->m__2__tau0;
 
     /* r4_w2: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) -
      * Int(D(m[2].motor))/(4*m[2].tau0^2))*(1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
@@ -1613,12 +1786,9 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
      * m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0))^2) */
     c->r4_w5_product = K_times_tau0_times_A_5 / REAL(360.0);
 
-    /* 1/(2*m[2].tau0^3) */
-    c->scaled_one_over_tau0_6 = REAL(0.5) / p->m__2__tau0 / p->m__2__tau0 / p->m__2__tau0;
-
-    /* m[2].ge.N/(2*m[2].tau0^3) */
-    c->scaled_N_over_tau0_6 = REAL(0.5) * p->m__2__ge__N / p->m__2__tau0 / p->m__2__tau0
-            / p->m__2__tau0;
+    /* m[2].K*m[2].tau0^3*m[2].A */
+    const real K_times_tau0_times_A_6 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__tau0
+            * p->m__2__A;
 
     /* r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
      * m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0))^2)*(Int(D(m[2].motor))/(2*m[2].tau0^3) -
@@ -1627,8 +1797,16 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r4_w6: factor of a product */
     c->r4_w6_product_2 = K_times_tau0_times_A_6 / REAL(360.0);
+}
 
-    /* khepera.bg:114: r5_w1: factor of load */
+/* r5: coefficients */
+static void bound_compute_r5(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real w)
+{
+    /* khepera.bg:114: R_L^2*w */
+    const real R_L_times_w = p->R_L * p->R_L * w;
+
+    /* r5_w1: factor of load */
     c->r5_w1_load = p->R_L / REAL(10.0);
 
     /* r5_w1: factor of load' */
@@ -1636,6 +1814,42 @@ static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *
 
     /* r5_w2: factor of load' */
     c->r5_w2_w1_load = REAL(11.0) * R_L_times_w / REAL(20000000000000.0);
+}
+
+/* The coefficients, from the parameters. */
+static void bound_compute_coefficients(khepera_encoders_threshold_coefficients *c,
+        const khepera_encoders_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real sum = REAL(1.0) - pole;
+
+    /* (1 - (1 - pole)/2)*w */
+    const real product_5 = (REAL(1.0) - REAL(0.5) * sum) * w;
+
+    /* speed of m[1].motor for one count */
+    c->m__1__motor_gain = REAL(0.0015339807878856412) * product_5;
+
+    /* speed of m[1].wheel for one count */
+    c->m__1__wheel_gain = REAL(9.587379924285257e-05) * product_5;
+
+    bound_compute_r1(c, p, w);
+    bound_compute_filter(c, pole, turn, sum);
+    bound_compute_r2(c, p, w);
+    bound_compute_r3(c, p, w);
+    bound_compute_r4(c, p, w);
+    bound_compute_r5(c, p, w);
 }
 
 static bool bound_coefficients_are_finite(const khepera_encoders_threshold_coefficients *c)
@@ -1710,16 +1924,13 @@ khepera_encoders_status khepera_encoders_threshold_configure(
     return KHEPERA_ENCODERS_OK;
 }
 
-/* r1 on one sample.
- * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
-static void bound_r1(
-    const khepera_encoders_threshold_coefficients *c, khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real *r)
+/* a stage of the filter; on the first sample it is at rest; filtered speed of m[1].motor */
+static void bound_r1_w1_a_to_w1_m__1__motor_speed_2(const khepera_encoders_threshold_coefficients
+            *c,
+        khepera_encoders_threshold_memory *x, bool first, real *w1_a_out, real *w1_b_out,
+        real *w1_m__1__motor_speed_2_out)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
     const khepera_encoders_threshold_encoders *e = &x->e;
-
-    count_on(&x->e.m__1__motor_r1, s->m__1__motor, first);
-    count_on(&x->e.m__1__wheel_r1, s->m__1__wheel, first);
 
     if (first) {
         /* nothing is remembered yet */
@@ -1739,6 +1950,15 @@ static void bound_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor_r1.increment;
     x->r1_w1_m__1__motor_speed = w1_m__1__motor_speed_2;
 
+    *w1_a_out = w1_a;
+    *w1_b_out = w1_b;
+    *w1_m__1__motor_speed_2_out = w1_m__1__motor_speed_2;
+}
+
+/* what the tolerance of m[1].fe can do */
+static real bound_r1_w1(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b, real w1_m__1__motor_speed_2)
+{
     /* r1_w1: encoders, order 1 */
     const real w1_n1 = -c->r1_w1_w1_m__1__motor * w1_m__1__motor_speed_2;
 
@@ -1782,6 +2002,15 @@ static void bound_r1(
     /* what the tolerance of m[1].fe can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* filtered speed of m[1].wheel */
+static real bound_r1_w2_m__1__wheel_speed_2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w2_m__1__wheel_speed = REAL(0.0);
@@ -1796,6 +2025,13 @@ static void bound_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w2_m__1__wheel_speed = w2_m__1__wheel_speed_2;
 
+    return w2_m__1__wheel_speed_2;
+}
+
+/* what the tolerance of m[1].Js can do */
+static real bound_r1_w2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b, real w2_m__1__wheel_speed_2)
+{
     /* r1_w2: encoders, order 2 */
     const real w2_n2 = -c->r1_w2_w2_m__1__wheel * w2_m__1__wheel_speed_2;
 
@@ -1842,6 +2078,15 @@ static void bound_r1(
     /* what the tolerance of m[1].Js can do */
     const real w2 = w2_y1 - w2_e2;
 
+    return w2;
+}
+
+/* filtered speed of m[1].wheel */
+static real bound_r1_w3_m__1__wheel_speed_2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w3_m__1__wheel_speed = REAL(0.0);
@@ -1856,6 +2101,13 @@ static void bound_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w3_m__1__wheel_speed = w3_m__1__wheel_speed_2;
 
+    return w3_m__1__wheel_speed_2;
+}
+
+/* what the tolerance of m[1].fs can do */
+static real bound_r1_w3(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b, real w3_m__1__wheel_speed_2)
+{
     /* r1_w3: encoders, order 1 */
     const real w3_n1 = -c->r1_w3_w1_m__1__wheel * w3_m__1__wheel_speed_2;
 
@@ -1899,6 +2151,15 @@ static void bound_r1(
     /* what the tolerance of m[1].fs can do */
     const real w3 = w3_y1;
 
+    return w3;
+}
+
+/* filtered speed of m[1].wheel */
+static real bound_r1_w4_m__1__wheel_speed_2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w4_m__1__wheel_speed = REAL(0.0);
@@ -1913,6 +2174,16 @@ static void bound_r1(
     const real w4_m__1__wheel_speed_2 = c->a * x->r1_w4_m__1__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w4_m__1__wheel_speed = w4_m__1__wheel_speed_2;
+
+    return w4_m__1__wheel_speed_2;
+}
+
+/* stage 1 */
+static real bound_r1_w4_y1(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real w1_a,
+        real w1_b, real w4_m__1__wheel_speed_2)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     /* filtered speed of m[1].motor */
     const real w4_m__1__motor_speed_2 = c->a * x->r1_w4_m__1__motor_speed
@@ -1967,8 +2238,15 @@ static void bound_r1(
     const real w4_y1 = x->r1_w4_s1 + w1_b * w4_u1;
     x->r1_w4_s1 = w1_a * w4_y1 + w1_b * w4_u1;
 
-    /* what the tolerance of m[1].el.Re can do */
-    const real w4 = w4_y1;
+    return w4_y1;
+}
+
+/* encoders, order 1; ...; encoders, order 3 */
+static void bound_r1_w5_n1_to_w5_n3(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real *w5_n1_out, real *w5_e1_out,
+        real *w5_n2_out, real *w5_e2_out, real *w5_n3_out)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -2008,6 +2286,18 @@ static void bound_r1(
     const real w5_n3 = c->r1_w5_w3_m__1__motor * w5_m__1__motor_speed_2
         + c->r1_w2_w3_m__1__wheel * w5_m__1__wheel_speed_2;
 
+    *w5_n1_out = w5_n1;
+    *w5_e1_out = w5_e1;
+    *w5_n2_out = w5_n2;
+    *w5_e2_out = w5_e2;
+    *w5_n3_out = w5_n3;
+}
+
+/* what the tolerance of m[1].el.k can do */
+static real bound_r1_w5(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real w1_a,
+        real w1_b, real w5_n1, real w5_e1, real w5_n2, real w5_e2, real w5_n3)
+{
     /* r1_w5: terms of order 0 */
     const real w5_g0 = c->r1_w5_Fx__1 * s->Fx__1;
 
@@ -2060,6 +2350,15 @@ static void bound_r1(
     /* what the tolerance of m[1].el.k can do */
     const real w5 = w5_y1 - w5_e2;
 
+    return w5;
+}
+
+/* what the tolerances of m[1].fe and m[1].el.Re can do together */
+static real bound_r1_w6(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w6_m__1__motor_speed = REAL(0.0);
@@ -2109,6 +2408,15 @@ static void bound_r1(
         x->r1_w7_s1 = REAL(0.0);
     }
 
+    return w6;
+}
+
+/* what the tolerances of m[1].fe and m[1].el.k can do together */
+static real bound_r1_w7(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[1].motor */
     const real w7_m__1__motor_speed_2 = c->a * x->r1_w7_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor_r1.increment;
@@ -2156,6 +2464,15 @@ static void bound_r1(
 
     /* what the tolerances of m[1].fe and m[1].el.k can do together */
     const real w7 = w7_y1;
+
+    return w7;
+}
+
+/* what the tolerances of m[1].Js and m[1].el.Re can do together */
+static real bound_r1_w8(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -2209,6 +2526,15 @@ static void bound_r1(
         x->r1_w9_s1 = REAL(0.0);
     }
 
+    return w8;
+}
+
+/* what the tolerances of m[1].Js and m[1].el.k can do together */
+static real bound_r1_w9(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[1].wheel */
     const real w9_m__1__wheel_speed_2 = c->a * x->r1_w9_m__1__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
@@ -2260,6 +2586,15 @@ static void bound_r1(
     /* what the tolerances of m[1].Js and m[1].el.k can do together */
     const real w9 = w9_y1 - w9_e2;
 
+    return w9;
+}
+
+/* what the tolerances of m[1].fs and m[1].el.Re can do together */
+static real bound_r1_w10(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w10_m__1__wheel_speed = REAL(0.0);
@@ -2309,6 +2644,15 @@ static void bound_r1(
         x->r1_w11_s1 = REAL(0.0);
     }
 
+    return w10;
+}
+
+/* what the tolerances of m[1].fs and m[1].el.k can do together */
+static real bound_r1_w11(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[1].wheel */
     const real w11_m__1__wheel_speed_2 = c->a * x->r1_w11_m__1__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
@@ -2357,6 +2701,15 @@ static void bound_r1(
     /* what the tolerances of m[1].fs and m[1].el.k can do together */
     const real w11 = w11_y1;
 
+    return w11;
+}
+
+/* filtered speed of m[1].motor */
+static real bound_r1_w12_m__1__motor_speed_2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r1_w12_m__1__motor_speed = REAL(0.0);
@@ -2371,6 +2724,16 @@ static void bound_r1(
     const real w12_m__1__motor_speed_2 = c->a * x->r1_w12_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor_r1.increment;
     x->r1_w12_m__1__motor_speed = w12_m__1__motor_speed_2;
+
+    return w12_m__1__motor_speed_2;
+}
+
+/* stage 1 */
+static real bound_r1_w12_y1(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real w1_a,
+        real w1_b, real w12_m__1__motor_speed_2)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     /* filtered speed of m[1].wheel */
     const real w12_m__1__wheel_speed_2 = c->a * x->r1_w12_m__1__wheel_speed
@@ -2425,8 +2788,15 @@ static void bound_r1(
     const real w12_y1 = x->r1_w12_s1 + w1_b * w12_u1;
     x->r1_w12_s1 = w1_a * w12_y1 + w1_b * w12_u1;
 
-    /* what the tolerances of m[1].el.Re and m[1].el.k can do together */
-    const real w12 = w12_y1;
+    return w12_y1;
+}
+
+/* encoders, order 1; ...; encoders, order 3 */
+static void bound_r1_w13_n1_to_w13_n3(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real *w13_n1_out, real *w13_e1_out,
+        real *w13_n2_out, real *w13_e2_out, real *w13_n3_out)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -2466,6 +2836,18 @@ static void bound_r1(
     const real w13_n3 = -c->r1_w13_w3_m__1__motor * w13_m__1__motor_speed_2
         - c->r1_w9_w3_m__1__wheel * w13_m__1__wheel_speed_2;
 
+    *w13_n1_out = w13_n1;
+    *w13_e1_out = w13_e1;
+    *w13_n2_out = w13_n2;
+    *w13_e2_out = w13_e2;
+    *w13_n3_out = w13_n3;
+}
+
+/* second order of what the tolerance of m[1].el.k can do */
+static real bound_r1_w13(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real w1_a,
+        real w1_b, real w13_n1, real w13_e1, real w13_n2, real w13_e2, real w13_n3)
+{
     /* r1_w13: terms of order 0 */
     const real w13_g0 = c->r1_w13_Fx__1 * s->Fx__1;
 
@@ -2518,32 +2900,74 @@ static void bound_r1(
     /* second order of what the tolerance of m[1].el.k can do */
     const real w13 = w13_y1 - w13_e2;
 
+    return w13;
+}
+
+/* r1 on one sample.
+ * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
+static void bound_r1(
+    const khepera_encoders_threshold_coefficients *c, khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    count_on(&x->e.m__1__motor_r1, s->m__1__motor, first);
+    count_on(&x->e.m__1__wheel_r1, s->m__1__wheel, first);
+
+    real w1_a;
+    real w1_b;
+    real w1_m__1__motor_speed_2;
+
+    bound_r1_w1_a_to_w1_m__1__motor_speed_2(c, x, first, &w1_a, &w1_b, &w1_m__1__motor_speed_2);
+    const real w1 = bound_r1_w1(c, x, w1_a, w1_b, w1_m__1__motor_speed_2);
+    const real w2_m__1__wheel_speed_2 = bound_r1_w2_m__1__wheel_speed_2(c, x, first);
+    const real w2 = bound_r1_w2(c, x, w1_a, w1_b, w2_m__1__wheel_speed_2);
+    const real w3_m__1__wheel_speed_2 = bound_r1_w3_m__1__wheel_speed_2(c, x, first);
+    const real w3 = bound_r1_w3(c, x, w1_a, w1_b, w3_m__1__wheel_speed_2);
+    const real w4_m__1__wheel_speed_2 = bound_r1_w4_m__1__wheel_speed_2(c, x, first);
+    const real w4_y1 = bound_r1_w4_y1(c, x, s, w1_a, w1_b, w4_m__1__wheel_speed_2);
+
+    /* what the tolerance of m[1].el.Re can do */
+    const real w4 = w4_y1;
+
+    real w5_n1;
+    real w5_e1;
+    real w5_n2;
+    real w5_e2;
+    real w5_n3;
+
+    bound_r1_w5_n1_to_w5_n3(c, x, first, &w5_n1, &w5_e1, &w5_n2, &w5_e2, &w5_n3);
+    const real w5 = bound_r1_w5(c, x, s, w1_a, w1_b, w5_n1, w5_e1, w5_n2, w5_e2, w5_n3);
+    const real w6 = bound_r1_w6(c, x, first, w1_a, w1_b);
+    const real w7 = bound_r1_w7(c, x, w1_a, w1_b);
+    const real w8 = bound_r1_w8(c, x, first, w1_a, w1_b);
+    const real w9 = bound_r1_w9(c, x, w1_a, w1_b);
+    const real w10 = bound_r1_w10(c, x, first, w1_a, w1_b);
+    const real w11 = bound_r1_w11(c, x, w1_a, w1_b);
+    const real w12_m__1__motor_speed_2 = bound_r1_w12_m__1__motor_speed_2(c, x, first);
+    const real w12_y1 = bound_r1_w12_y1(c, x, s, w1_a, w1_b, w12_m__1__motor_speed_2);
+
+    /* what the tolerances of m[1].el.Re and m[1].el.k can do together */
+    const real w12 = w12_y1;
+
+    real w13_n1;
+    real w13_e1;
+    real w13_n2;
+    real w13_e2;
+    real w13_n3;
+
+    bound_r1_w13_n1_to_w13_n3(c, x, first, &w13_n1, &w13_e1, &w13_n2, &w13_e2, &w13_n3);
+    const real w13 = bound_r1_w13(c, x, s, w1_a, w1_b, w13_n1, w13_e1, w13_n2, w13_e2, w13_n3);
+
     r[KHEPERA_ENCODERS_R1] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
         + MATH(fabs)(w10) + MATH(fabs)(w11) + MATH(fabs)(w12) + MATH(fabs)(w13);
 }
 
-/* r2 on one sample.
- * khepera_encoders.bg:31: r2: how far r2 can be from zero if no parameter is out of tolerance */
-static void bound_r2(
-    const khepera_encoders_threshold_coefficients *c, khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real *r)
+/* what the tolerance of m[1].K can do */
+static real bound_r2_w1(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
 {
-    const bool first = x->youngest == 0u && x->age[1] == 0u;
     const khepera_encoders_threshold_encoders *e = &x->e;
-
-    count_on(&x->e.m__1__motor_r2, s->m__1__motor, first);
-    count_on(&x->e.m__1__wheel_r2, s->m__1__wheel, first);
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r2_w1_s3 = REAL(0.0);
-        x->r2_w1_s2 = REAL(0.0);
-        x->r2_w1_s1 = REAL(0.0);
-    }
-
-    /* r2_w1: a stage of the filter; on the first sample it is at rest */
-    const real w1_a = first ? -c->b : c->a;
-    const real w1_b = first ? REAL(1.0) : c->b;
 
     /* m[1].wheel */
     const real w1_m__1__wheel = c->m__1__wheel__int__x0
@@ -2599,6 +3023,15 @@ static void bound_r2(
         x->r2_w2_s1 = REAL(0.0);
     }
 
+    return w1;
+}
+
+/* what the tolerance of m[1].tau0 can do */
+static real bound_r2_w2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     /* m[1].wheel */
     const real w2_m__1__wheel = c->m__1__wheel__int__x0
         + REAL(9.587379924285257e-05) * (real)e->m__1__wheel_r2.total;
@@ -2650,6 +3083,15 @@ static void bound_r2(
     /* what the tolerance of m[1].tau0 can do */
     const real w2 = w2_y1;
 
+    return w2;
+}
+
+/* what the tolerance of m[1].Js can do */
+static real bound_r2_w3(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r2_w3_m__1__wheel_speed = REAL(0.0);
@@ -2686,6 +3128,15 @@ static void bound_r2(
 
     /* what the tolerance of m[1].Js can do */
     const real w3 = w3_y1;
+
+    return w3;
+}
+
+/* what the tolerance of m[1].fs can do */
+static real bound_r2_w4(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -2727,6 +3178,15 @@ static void bound_r2(
         x->r2_w5_s2 = REAL(0.0);
         x->r2_w5_s1 = REAL(0.0);
     }
+
+    return w4;
+}
+
+/* what the tolerances of m[1].K and m[1].tau0 can do together */
+static real bound_r2_w5(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     /* m[1].wheel */
     const real w5_m__1__wheel = c->m__1__wheel__int__x0
@@ -2779,29 +3239,14 @@ static void bound_r2(
     /* what the tolerances of m[1].K and m[1].tau0 can do together */
     const real w5 = w5_y1;
 
-    if (first) {
-        /* nothing is remembered yet */
-        x->r2_w6_s3 = REAL(0.0);
-        x->r2_w6_s2 = REAL(0.0);
-        x->r2_w6_s1 = REAL(0.0);
-    }
+    return w5;
+}
 
-    /* m[1].wheel */
-    const real w6_m__1__wheel = c->m__1__wheel__int__x0
-        + REAL(9.587379924285257e-05) * (real)e->m__1__wheel_r2.total;
-
-    if (first) {
-        /* change of D(m[1].wheel) */
-        x->r2_w6_start = w6_m__1__wheel;
-    }
-
-    /* change of D(m[1].wheel) */
-    const real w6_change = w6_m__1__wheel - x->r2_w6_start;
-
-    /* m[1].motor */
-    const real w6_m__1__motor = c->m__1__motor__int__x0
-        + REAL(0.0015339807878856412) * (real)e->m__1__motor_r2.total;
-
+/* second order of what the tolerance of m[1].tau0 can do */
+static real bound_r2_w6(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b, real w6_change,
+        real w6_m__1__motor)
+{
     if (first) {
         /* change of D(m[1].motor) */
         x->r2_w6_start_2 = w6_m__1__motor;
@@ -2853,20 +3298,73 @@ static void bound_r2(
     /* second order of what the tolerance of m[1].tau0 can do */
     const real w6 = w6_y1;
 
+    return w6;
+}
+
+/* r2 on one sample.
+ * khepera_encoders.bg:31: r2: how far r2 can be from zero if no parameter is out of tolerance */
+static void bound_r2(
+    const khepera_encoders_threshold_coefficients *c, khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
+    count_on(&x->e.m__1__motor_r2, s->m__1__motor, first);
+    count_on(&x->e.m__1__wheel_r2, s->m__1__wheel, first);
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_w1_s3 = REAL(0.0);
+        x->r2_w1_s2 = REAL(0.0);
+        x->r2_w1_s1 = REAL(0.0);
+    }
+
+    /* r2_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    const real w1 = bound_r2_w1(c, x, first, w1_a, w1_b);
+    const real w2 = bound_r2_w2(c, x, first, w1_a, w1_b);
+    const real w3 = bound_r2_w3(c, x, first, w1_a, w1_b);
+    const real w4 = bound_r2_w4(c, x, first, w1_a, w1_b);
+    const real w5 = bound_r2_w5(c, x, first, w1_a, w1_b);
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_w6_s3 = REAL(0.0);
+        x->r2_w6_s2 = REAL(0.0);
+        x->r2_w6_s1 = REAL(0.0);
+    }
+
+    /* m[1].wheel */
+    const real w6_m__1__wheel = c->m__1__wheel__int__x0
+        + REAL(9.587379924285257e-05) * (real)e->m__1__wheel_r2.total;
+
+    if (first) {
+        /* change of D(m[1].wheel) */
+        x->r2_w6_start = w6_m__1__wheel;
+    }
+
+    /* change of D(m[1].wheel) */
+    const real w6_change = w6_m__1__wheel - x->r2_w6_start;
+
+    /* m[1].motor */
+    const real w6_m__1__motor = c->m__1__motor__int__x0
+        + REAL(0.0015339807878856412) * (real)e->m__1__motor_r2.total;
+
+    const real w6 = bound_r2_w6(c, x, first, w1_a, w1_b, w6_change, w6_m__1__motor);
+
     r[KHEPERA_ENCODERS_R2] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6);
 }
 
-/* r3 on one sample.
- * khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
-static void bound_r3(
-    const khepera_encoders_threshold_coefficients *c, khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real *r)
+/* a stage of the filter; on the first sample it is at rest; filtered speed of m[2].motor */
+static void bound_r3_w1_a_to_w1_m__2__motor_speed_2(const khepera_encoders_threshold_coefficients
+            *c,
+        khepera_encoders_threshold_memory *x, bool first, real *w1_a_out, real *w1_b_out,
+        real *w1_m__2__motor_speed_2_out)
 {
-    const bool first = x->youngest == 0u && x->age[2] == 0u;
     const khepera_encoders_threshold_encoders *e = &x->e;
-
-    count_on(&x->e.m__2__motor_r3, s->m__2__motor, first);
-    count_on(&x->e.m__2__wheel_r3, s->m__2__wheel, first);
 
     if (first) {
         /* nothing is remembered yet */
@@ -2886,6 +3384,15 @@ static void bound_r3(
         + c->m__1__motor_gain * (real)e->m__2__motor_r3.increment;
     x->r3_w1_m__2__motor_speed = w1_m__2__motor_speed_2;
 
+    *w1_a_out = w1_a;
+    *w1_b_out = w1_b;
+    *w1_m__2__motor_speed_2_out = w1_m__2__motor_speed_2;
+}
+
+/* what the tolerance of m[2].fe can do */
+static real bound_r3_w1(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b, real w1_m__2__motor_speed_2)
+{
     /* r3_w1: encoders, order 1 */
     const real w1_n1 = -c->r3_w1_w1_m__2__motor * w1_m__2__motor_speed_2;
 
@@ -2929,6 +3436,15 @@ static void bound_r3(
     /* what the tolerance of m[2].fe can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* filtered speed of m[2].wheel */
+static real bound_r3_w2_m__2__wheel_speed_2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r3_w2_m__2__wheel_speed = REAL(0.0);
@@ -2943,6 +3459,13 @@ static void bound_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w2_m__2__wheel_speed = w2_m__2__wheel_speed_2;
 
+    return w2_m__2__wheel_speed_2;
+}
+
+/* what the tolerance of m[2].Js can do */
+static real bound_r3_w2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b, real w2_m__2__wheel_speed_2)
+{
     /* r3_w2: encoders, order 2 */
     const real w2_n2 = -c->r3_w2_w2_m__2__wheel * w2_m__2__wheel_speed_2;
 
@@ -2989,6 +3512,15 @@ static void bound_r3(
     /* what the tolerance of m[2].Js can do */
     const real w2 = w2_y1 - w2_e2;
 
+    return w2;
+}
+
+/* filtered speed of m[2].wheel */
+static real bound_r3_w3_m__2__wheel_speed_2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r3_w3_m__2__wheel_speed = REAL(0.0);
@@ -3003,6 +3535,13 @@ static void bound_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w3_m__2__wheel_speed = w3_m__2__wheel_speed_2;
 
+    return w3_m__2__wheel_speed_2;
+}
+
+/* what the tolerance of m[2].fs can do */
+static real bound_r3_w3(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b, real w3_m__2__wheel_speed_2)
+{
     /* r3_w3: encoders, order 1 */
     const real w3_n1 = -c->r3_w3_w1_m__2__wheel * w3_m__2__wheel_speed_2;
 
@@ -3046,6 +3585,15 @@ static void bound_r3(
     /* what the tolerance of m[2].fs can do */
     const real w3 = w3_y1;
 
+    return w3;
+}
+
+/* filtered speed of m[2].wheel */
+static real bound_r3_w4_m__2__wheel_speed_2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r3_w4_m__2__wheel_speed = REAL(0.0);
@@ -3060,6 +3608,16 @@ static void bound_r3(
     const real w4_m__2__wheel_speed_2 = c->a * x->r3_w4_m__2__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w4_m__2__wheel_speed = w4_m__2__wheel_speed_2;
+
+    return w4_m__2__wheel_speed_2;
+}
+
+/* stage 1 */
+static real bound_r3_w4_y1(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real w1_a,
+        real w1_b, real w4_m__2__wheel_speed_2)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     /* filtered speed of m[2].motor */
     const real w4_m__2__motor_speed_2 = c->a * x->r3_w4_m__2__motor_speed
@@ -3114,8 +3672,15 @@ static void bound_r3(
     const real w4_y1 = x->r3_w4_s1 + w1_b * w4_u1;
     x->r3_w4_s1 = w1_a * w4_y1 + w1_b * w4_u1;
 
-    /* what the tolerance of m[2].el.Re can do */
-    const real w4 = w4_y1;
+    return w4_y1;
+}
+
+/* encoders, order 1; ...; encoders, order 3 */
+static void bound_r3_w5_n1_to_w5_n3(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real *w5_n1_out, real *w5_e1_out,
+        real *w5_n2_out, real *w5_e2_out, real *w5_n3_out)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -3155,6 +3720,18 @@ static void bound_r3(
     const real w5_n3 = c->r3_w5_w3_m__2__motor * w5_m__2__motor_speed_2
         + c->r3_w2_w3_m__2__wheel * w5_m__2__wheel_speed_2;
 
+    *w5_n1_out = w5_n1;
+    *w5_e1_out = w5_e1;
+    *w5_n2_out = w5_n2;
+    *w5_e2_out = w5_e2;
+    *w5_n3_out = w5_n3;
+}
+
+/* what the tolerance of m[2].el.k can do */
+static real bound_r3_w5(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real w1_a,
+        real w1_b, real w5_n1, real w5_e1, real w5_n2, real w5_e2, real w5_n3)
+{
     /* r3_w5: terms of order 0 */
     const real w5_g0 = c->r3_w5_Fx__2 * s->Fx__2;
 
@@ -3207,6 +3784,15 @@ static void bound_r3(
     /* what the tolerance of m[2].el.k can do */
     const real w5 = w5_y1 - w5_e2;
 
+    return w5;
+}
+
+/* what the tolerances of m[2].fe and m[2].el.Re can do together */
+static real bound_r3_w6(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r3_w6_m__2__motor_speed = REAL(0.0);
@@ -3256,6 +3842,15 @@ static void bound_r3(
         x->r3_w7_s1 = REAL(0.0);
     }
 
+    return w6;
+}
+
+/* what the tolerances of m[2].fe and m[2].el.k can do together */
+static real bound_r3_w7(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[2].motor */
     const real w7_m__2__motor_speed_2 = c->a * x->r3_w7_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor_r3.increment;
@@ -3303,6 +3898,15 @@ static void bound_r3(
 
     /* what the tolerances of m[2].fe and m[2].el.k can do together */
     const real w7 = w7_y1;
+
+    return w7;
+}
+
+/* what the tolerances of m[2].Js and m[2].el.Re can do together */
+static real bound_r3_w8(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -3356,6 +3960,15 @@ static void bound_r3(
         x->r3_w9_s1 = REAL(0.0);
     }
 
+    return w8;
+}
+
+/* what the tolerances of m[2].Js and m[2].el.k can do together */
+static real bound_r3_w9(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[2].wheel */
     const real w9_m__2__wheel_speed_2 = c->a * x->r3_w9_m__2__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
@@ -3407,6 +4020,15 @@ static void bound_r3(
     /* what the tolerances of m[2].Js and m[2].el.k can do together */
     const real w9 = w9_y1 - w9_e2;
 
+    return w9;
+}
+
+/* what the tolerances of m[2].fs and m[2].el.Re can do together */
+static real bound_r3_w10(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r3_w10_m__2__wheel_speed = REAL(0.0);
@@ -3456,6 +4078,15 @@ static void bound_r3(
         x->r3_w11_s1 = REAL(0.0);
     }
 
+    return w10;
+}
+
+/* what the tolerances of m[2].fs and m[2].el.k can do together */
+static real bound_r3_w11(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     /* filtered speed of m[2].wheel */
     const real w11_m__2__wheel_speed_2 = c->a * x->r3_w11_m__2__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
@@ -3504,6 +4135,15 @@ static void bound_r3(
     /* what the tolerances of m[2].fs and m[2].el.k can do together */
     const real w11 = w11_y1;
 
+    return w11;
+}
+
+/* filtered speed of m[2].motor */
+static real bound_r3_w12_m__2__motor_speed_2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r3_w12_m__2__motor_speed = REAL(0.0);
@@ -3518,6 +4158,16 @@ static void bound_r3(
     const real w12_m__2__motor_speed_2 = c->a * x->r3_w12_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor_r3.increment;
     x->r3_w12_m__2__motor_speed = w12_m__2__motor_speed_2;
+
+    return w12_m__2__motor_speed_2;
+}
+
+/* stage 1 */
+static real bound_r3_w12_y1(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real w1_a,
+        real w1_b, real w12_m__2__motor_speed_2)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     /* filtered speed of m[2].wheel */
     const real w12_m__2__wheel_speed_2 = c->a * x->r3_w12_m__2__wheel_speed
@@ -3572,8 +4222,15 @@ static void bound_r3(
     const real w12_y1 = x->r3_w12_s1 + w1_b * w12_u1;
     x->r3_w12_s1 = w1_a * w12_y1 + w1_b * w12_u1;
 
-    /* what the tolerances of m[2].el.Re and m[2].el.k can do together */
-    const real w12 = w12_y1;
+    return w12_y1;
+}
+
+/* encoders, order 1; ...; encoders, order 3 */
+static void bound_r3_w13_n1_to_w13_n3(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real *w13_n1_out, real *w13_e1_out,
+        real *w13_n2_out, real *w13_e2_out, real *w13_n3_out)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -3613,6 +4270,18 @@ static void bound_r3(
     const real w13_n3 = -c->r3_w13_w3_m__2__motor * w13_m__2__motor_speed_2
         - c->r3_w9_w3_m__2__wheel * w13_m__2__wheel_speed_2;
 
+    *w13_n1_out = w13_n1;
+    *w13_e1_out = w13_e1;
+    *w13_n2_out = w13_n2;
+    *w13_e2_out = w13_e2;
+    *w13_n3_out = w13_n3;
+}
+
+/* second order of what the tolerance of m[2].el.k can do */
+static real bound_r3_w13(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real w1_a,
+        real w1_b, real w13_n1, real w13_e1, real w13_n2, real w13_e2, real w13_n3)
+{
     /* r3_w13: terms of order 0 */
     const real w13_g0 = c->r3_w13_Fx__2 * s->Fx__2;
 
@@ -3665,32 +4334,74 @@ static void bound_r3(
     /* second order of what the tolerance of m[2].el.k can do */
     const real w13 = w13_y1 - w13_e2;
 
+    return w13;
+}
+
+/* r3 on one sample.
+ * khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
+static void bound_r3(
+    const khepera_encoders_threshold_coefficients *c, khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[2] == 0u;
+
+    count_on(&x->e.m__2__motor_r3, s->m__2__motor, first);
+    count_on(&x->e.m__2__wheel_r3, s->m__2__wheel, first);
+
+    real w1_a;
+    real w1_b;
+    real w1_m__2__motor_speed_2;
+
+    bound_r3_w1_a_to_w1_m__2__motor_speed_2(c, x, first, &w1_a, &w1_b, &w1_m__2__motor_speed_2);
+    const real w1 = bound_r3_w1(c, x, w1_a, w1_b, w1_m__2__motor_speed_2);
+    const real w2_m__2__wheel_speed_2 = bound_r3_w2_m__2__wheel_speed_2(c, x, first);
+    const real w2 = bound_r3_w2(c, x, w1_a, w1_b, w2_m__2__wheel_speed_2);
+    const real w3_m__2__wheel_speed_2 = bound_r3_w3_m__2__wheel_speed_2(c, x, first);
+    const real w3 = bound_r3_w3(c, x, w1_a, w1_b, w3_m__2__wheel_speed_2);
+    const real w4_m__2__wheel_speed_2 = bound_r3_w4_m__2__wheel_speed_2(c, x, first);
+    const real w4_y1 = bound_r3_w4_y1(c, x, s, w1_a, w1_b, w4_m__2__wheel_speed_2);
+
+    /* what the tolerance of m[2].el.Re can do */
+    const real w4 = w4_y1;
+
+    real w5_n1;
+    real w5_e1;
+    real w5_n2;
+    real w5_e2;
+    real w5_n3;
+
+    bound_r3_w5_n1_to_w5_n3(c, x, first, &w5_n1, &w5_e1, &w5_n2, &w5_e2, &w5_n3);
+    const real w5 = bound_r3_w5(c, x, s, w1_a, w1_b, w5_n1, w5_e1, w5_n2, w5_e2, w5_n3);
+    const real w6 = bound_r3_w6(c, x, first, w1_a, w1_b);
+    const real w7 = bound_r3_w7(c, x, w1_a, w1_b);
+    const real w8 = bound_r3_w8(c, x, first, w1_a, w1_b);
+    const real w9 = bound_r3_w9(c, x, w1_a, w1_b);
+    const real w10 = bound_r3_w10(c, x, first, w1_a, w1_b);
+    const real w11 = bound_r3_w11(c, x, w1_a, w1_b);
+    const real w12_m__2__motor_speed_2 = bound_r3_w12_m__2__motor_speed_2(c, x, first);
+    const real w12_y1 = bound_r3_w12_y1(c, x, s, w1_a, w1_b, w12_m__2__motor_speed_2);
+
+    /* what the tolerances of m[2].el.Re and m[2].el.k can do together */
+    const real w12 = w12_y1;
+
+    real w13_n1;
+    real w13_e1;
+    real w13_n2;
+    real w13_e2;
+    real w13_n3;
+
+    bound_r3_w13_n1_to_w13_n3(c, x, first, &w13_n1, &w13_e1, &w13_n2, &w13_e2, &w13_n3);
+    const real w13 = bound_r3_w13(c, x, s, w1_a, w1_b, w13_n1, w13_e1, w13_n2, w13_e2, w13_n3);
+
     r[KHEPERA_ENCODERS_R3] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
         + MATH(fabs)(w10) + MATH(fabs)(w11) + MATH(fabs)(w12) + MATH(fabs)(w13);
 }
 
-/* r4 on one sample.
- * khepera_encoders.bg:31: r4: how far r4 can be from zero if no parameter is out of tolerance */
-static void bound_r4(
-    const khepera_encoders_threshold_coefficients *c, khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real *r)
+/* what the tolerance of m[2].K can do */
+static real bound_r4_w1(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
 {
-    const bool first = x->youngest == 0u && x->age[3] == 0u;
     const khepera_encoders_threshold_encoders *e = &x->e;
-
-    count_on(&x->e.m__2__motor_r4, s->m__2__motor, first);
-    count_on(&x->e.m__2__wheel_r4, s->m__2__wheel, first);
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r4_w1_s3 = REAL(0.0);
-        x->r4_w1_s2 = REAL(0.0);
-        x->r4_w1_s1 = REAL(0.0);
-    }
-
-    /* r4_w1: a stage of the filter; on the first sample it is at rest */
-    const real w1_a = first ? -c->b : c->a;
-    const real w1_b = first ? REAL(1.0) : c->b;
 
     /* m[2].wheel */
     const real w1_m__2__wheel = c->m__2__wheel__int__x0
@@ -3746,6 +4457,15 @@ static void bound_r4(
         x->r4_w2_s1 = REAL(0.0);
     }
 
+    return w1;
+}
+
+/* what the tolerance of m[2].tau0 can do */
+static real bound_r4_w2(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     /* m[2].wheel */
     const real w2_m__2__wheel = c->m__2__wheel__int__x0
         + REAL(9.587379924285257e-05) * (real)e->m__2__wheel_r4.total;
@@ -3797,6 +4517,15 @@ static void bound_r4(
     /* what the tolerance of m[2].tau0 can do */
     const real w2 = w2_y1;
 
+    return w2;
+}
+
+/* what the tolerance of m[2].Js can do */
+static real bound_r4_w3(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
     if (first) {
         /* nothing is remembered yet */
         x->r4_w3_m__2__wheel_speed = REAL(0.0);
@@ -3833,6 +4562,15 @@ static void bound_r4(
 
     /* what the tolerance of m[2].Js can do */
     const real w3 = w3_y1;
+
+    return w3;
+}
+
+/* what the tolerance of m[2].fs can do */
+static real bound_r4_w4(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     if (first) {
         /* nothing is remembered yet */
@@ -3874,6 +4612,15 @@ static void bound_r4(
         x->r4_w5_s2 = REAL(0.0);
         x->r4_w5_s1 = REAL(0.0);
     }
+
+    return w4;
+}
+
+/* what the tolerances of m[2].K and m[2].tau0 can do together */
+static real bound_r4_w5(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b)
+{
+    const khepera_encoders_threshold_encoders *e = &x->e;
 
     /* m[2].wheel */
     const real w5_m__2__wheel = c->m__2__wheel__int__x0
@@ -3926,29 +4673,14 @@ static void bound_r4(
     /* what the tolerances of m[2].K and m[2].tau0 can do together */
     const real w5 = w5_y1;
 
-    if (first) {
-        /* nothing is remembered yet */
-        x->r4_w6_s3 = REAL(0.0);
-        x->r4_w6_s2 = REAL(0.0);
-        x->r4_w6_s1 = REAL(0.0);
-    }
+    return w5;
+}
 
-    /* m[2].wheel */
-    const real w6_m__2__wheel = c->m__2__wheel__int__x0
-        + REAL(9.587379924285257e-05) * (real)e->m__2__wheel_r4.total;
-
-    if (first) {
-        /* change of D(m[2].wheel) */
-        x->r4_w6_start = w6_m__2__wheel;
-    }
-
-    /* change of D(m[2].wheel) */
-    const real w6_change = w6_m__2__wheel - x->r4_w6_start;
-
-    /* m[2].motor */
-    const real w6_m__2__motor = c->m__2__motor__int__x0
-        + REAL(0.0015339807878856412) * (real)e->m__2__motor_r4.total;
-
+/* second order of what the tolerance of m[2].tau0 can do */
+static real bound_r4_w6(const khepera_encoders_threshold_coefficients *c,
+        khepera_encoders_threshold_memory *x, bool first, real w1_a, real w1_b, real w6_change,
+        real w6_m__2__motor)
+{
     if (first) {
         /* change of D(m[2].motor) */
         x->r4_w6_start_2 = w6_m__2__motor;
@@ -3999,6 +4731,62 @@ static void bound_r4(
 
     /* second order of what the tolerance of m[2].tau0 can do */
     const real w6 = w6_y1;
+
+    return w6;
+}
+
+/* r4 on one sample.
+ * khepera_encoders.bg:31: r4: how far r4 can be from zero if no parameter is out of tolerance */
+static void bound_r4(
+    const khepera_encoders_threshold_coefficients *c, khepera_encoders_threshold_memory *x, const khepera_encoders_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[3] == 0u;
+    const khepera_encoders_threshold_encoders *e = &x->e;
+
+    count_on(&x->e.m__2__motor_r4, s->m__2__motor, first);
+    count_on(&x->e.m__2__wheel_r4, s->m__2__wheel, first);
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r4_w1_s3 = REAL(0.0);
+        x->r4_w1_s2 = REAL(0.0);
+        x->r4_w1_s1 = REAL(0.0);
+    }
+
+    /* r4_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    const real w1 = bound_r4_w1(c, x, first, w1_a, w1_b);
+    const real w2 = bound_r4_w2(c, x, first, w1_a, w1_b);
+    const real w3 = bound_r4_w3(c, x, first, w1_a, w1_b);
+    const real w4 = bound_r4_w4(c, x, first, w1_a, w1_b);
+    const real w5 = bound_r4_w5(c, x, first, w1_a, w1_b);
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r4_w6_s3 = REAL(0.0);
+        x->r4_w6_s2 = REAL(0.0);
+        x->r4_w6_s1 = REAL(0.0);
+    }
+
+    /* m[2].wheel */
+    const real w6_m__2__wheel = c->m__2__wheel__int__x0
+        + REAL(9.587379924285257e-05) * (real)e->m__2__wheel_r4.total;
+
+    if (first) {
+        /* change of D(m[2].wheel) */
+        x->r4_w6_start = w6_m__2__wheel;
+    }
+
+    /* change of D(m[2].wheel) */
+    const real w6_change = w6_m__2__wheel - x->r4_w6_start;
+
+    /* m[2].motor */
+    const real w6_m__2__motor = c->m__2__motor__int__x0
+        + REAL(0.0015339807878856412) * (real)e->m__2__motor_r4.total;
+
+    const real w6 = bound_r4_w6(c, x, first, w1_a, w1_b, w6_change, w6_m__2__motor);
 
     r[KHEPERA_ENCODERS_R4] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6);
@@ -4234,12 +5022,27 @@ static void forget_sums(khepera_encoders_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined KHEPERA_ENCODERS_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const khepera_encoders_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     khepera_encoders_diagnosis *d, const khepera_encoders_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -4331,6 +5134,7 @@ void khepera_encoders_clear(khepera_encoders_diagnosis *diagnosis)
     diagnosis->fault_class = KHEPERA_ENCODERS_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void khepera_encoders_diagnosis_reset(khepera_encoders_diagnosis *diagnosis)
@@ -4348,6 +5152,40 @@ void khepera_encoders_diagnosis_reset(khepera_encoders_diagnosis *diagnosis)
     khepera_encoders_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const khepera_encoders_limit *limits, const real *bounds, const khepera_encoders_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(khepera_encoders_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == KHEPERA_ENCODERS_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = KHEPERA_ENCODERS_BLIND;
+    }
+}
+
 bool khepera_encoders_diagnose(
     khepera_encoders_diagnosis *diagnosis,
     const khepera_encoders_limit *limits,
@@ -4362,6 +5200,10 @@ bool khepera_encoders_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -4373,13 +5215,9 @@ bool khepera_encoders_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == KHEPERA_ENCODERS_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = KHEPERA_ENCODERS_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == KHEPERA_ENCODERS_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == KHEPERA_ENCODERS_ALARM;
     }
     if (fresh) {

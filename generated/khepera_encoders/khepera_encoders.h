@@ -779,6 +779,7 @@ typedef struct khepera_encoders_diagnosis {
     int16_t fault_class; /* the one that is left, or KHEPERA_ENCODERS_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     khepera_encoders_real above[KHEPERA_ENCODERS_RESIDUALS];
     khepera_encoders_real below[KHEPERA_ENCODERS_RESIDUALS];
     khepera_encoders_real louder[KHEPERA_ENCODERS_RESIDUALS];

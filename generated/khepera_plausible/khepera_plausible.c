@@ -4,6 +4,7 @@
 #ifndef KHEPERA_PLAUSIBLE_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -172,22 +173,10 @@ const khepera_plausible_coefficients khepera_plausible_nominal_coefficients = {
     562u                             /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void compute_coefficients(khepera_plausible_coefficients *c,
-        const khepera_plausible_parameters *p, real sample_time, real bandwidth)
+/* r1: coefficients */
+static void compute_r1(khepera_plausible_coefficients *c, const khepera_plausible_parameters *p,
+        real w)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
     /* khepera.bg:17: fe[1]*robot.m[1].el.L/robot.m[1].el.k */
     const real fe_times_L_over_k = p->fe__1 * p->robot__m__1__el__L / p->robot__m__1__el__k;
 
@@ -203,26 +192,7 @@ static void compute_coefficients(khepera_plausible_coefficients *c,
     const real product_2 = p->Js__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
 
-    /* fe[2]*robot.m[2].el.L/robot.m[2].el.k */
-    const real fe_times_L_over_k_2 = p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k;
-
-    /* robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real product_3 = p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k;
-
-    /* robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k */
-    const real Re_times_Je_over_k_2 = p->robot__m__2__el__Re * p->robot__m__2__me__Je
-            / p->robot__m__2__el__k;
-
-    /* Js[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real product_4 = p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
-    /* khepera.bg:17: r1: factor of robot.m[1].me.we: robot.m[1].el.k +
-     * fe[1]*robot.m[1].el.Re/robot.m[1].el.k */
+    /* r1: factor of robot.m[1].me.we: robot.m[1].el.k + fe[1]*robot.m[1].el.Re/robot.m[1].el.k */
     c->r1_robot__m__1__me__we = p->robot__m__1__el__k
         + p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k;
 
@@ -252,6 +222,13 @@ static void compute_coefficients(khepera_plausible_coefficients *c,
     /* r1: factor of robot.Fx[1]' */
     c->r1_w1_robot__Fx__1 = p->R__1 * p->robot__m__1__el__L * w / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
+}
+
+/* filter: coefficients */
+static void compute_filter(khepera_plausible_coefficients *c, real pole, real turn)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
 
     /* filter: 2 * (w*sample_time)^2/12 */
     c->bend2 = turn_2 / REAL(6.0);
@@ -264,16 +241,14 @@ static void compute_coefficients(khepera_plausible_coefficients *c,
 
     /* filter: weight of a sample, new and a sample later */
     c->b = REAL(0.5) * (REAL(1.0) - pole);
+}
 
+/* r2: coefficients */
+static void compute_r2(khepera_plausible_coefficients *c, const khepera_plausible_parameters *p,
+        real w)
+{
     /* khepera.bg:41: r2: factor of robot.m[1].wh.ws: robot.m[1].ge.N */
     c->r2_robot__m__1__wh__ws = p->robot__m__1__ge__N;
-
-    /* (1/96)*sample_time/robot.m[1].tau0 */
-    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->robot__m__1__tau0;
-
-    /* (1/96)*robot.m[1].ge.N*sample_time/robot.m[1].tau0 */
-    c->scaled_N_times_sample_time_over_tau0 = p->robot__m__1__ge__N * sample_time / REAL(96.0)
-            / p->robot__m__1__tau0;
 
     /* r2: factor of robot.m[1].wh.ws' */
     c->r2_w1_robot__m__1__wh__ws = p->robot__m__1__wh__fs * w / p->robot__m__1__ge__N
@@ -288,9 +263,28 @@ static void compute_coefficients(khepera_plausible_coefficients *c,
     /* r2: factor of D(tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) -
      * robot.m[1].ge.N*Int(robot.m[1].wh.ws)/(4*robot.m[1].tau0))) */
     c->r2_w1_tanh = p->robot__m__1__tau0 * p->robot__m__1__A * w;
+}
 
-    /* khepera.bg:17: r3: factor of robot.m[2].me.we: robot.m[2].el.k +
-     * fe[2]*robot.m[2].el.Re/robot.m[2].el.k */
+/* r3: coefficients */
+static void compute_r3(khepera_plausible_coefficients *c, const khepera_plausible_parameters *p,
+        real w)
+{
+    /* khepera.bg:17: fe[2]*robot.m[2].el.L/robot.m[2].el.k */
+    const real fe_times_L_over_k_2 = p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k;
+
+    /* robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real product_3 = p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k */
+    const real Re_times_Je_over_k_2 = p->robot__m__2__el__Re * p->robot__m__2__me__Je
+            / p->robot__m__2__el__k;
+
+    /* Js[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real product_4 = p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* r3: factor of robot.m[2].me.we: robot.m[2].el.k + fe[2]*robot.m[2].el.Re/robot.m[2].el.k */
     c->r3_robot__m__2__me__we = p->robot__m__2__el__k
         + p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k;
 
@@ -320,16 +314,14 @@ static void compute_coefficients(khepera_plausible_coefficients *c,
     /* r3: factor of robot.Fx[2]' */
     c->r3_w1_robot__Fx__2 = p->R__2 * p->robot__m__2__el__L * w / p->robot__m__2__ge__N
             / p->robot__m__2__el__k;
+}
 
+/* r4: coefficients */
+static void compute_r4(khepera_plausible_coefficients *c, const khepera_plausible_parameters *p,
+        real w)
+{
     /* khepera.bg:41: r4: factor of robot.m[2].wh.ws: robot.m[2].ge.N */
     c->r4_robot__m__2__wh__ws = p->robot__m__2__ge__N;
-
-    /* (1/96)*sample_time/robot.m[2].tau0 */
-    c->scaled_sample_time_over_tau0_2 = sample_time / REAL(96.0) / p->robot__m__2__tau0;
-
-    /* (1/96)*robot.m[2].ge.N*sample_time/robot.m[2].tau0 */
-    c->scaled_N_times_sample_time_over_tau0_2 = p->robot__m__2__ge__N * sample_time / REAL(96.0)
-            / p->robot__m__2__tau0;
 
     /* r4: factor of robot.m[2].wh.ws' */
     c->r4_w1_robot__m__2__wh__ws = p->robot__m__2__wh__fs * w / p->robot__m__2__ge__N
@@ -344,6 +336,43 @@ static void compute_coefficients(khepera_plausible_coefficients *c,
     /* r4: factor of D(tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) -
      * robot.m[2].ge.N*Int(robot.m[2].wh.ws)/(4*robot.m[2].tau0))) */
     c->r4_w1_tanh = p->robot__m__2__tau0 * p->robot__m__2__A * w;
+}
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(khepera_plausible_coefficients *c,
+        const khepera_plausible_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* khepera.bg:41: (1/96)*sample_time/robot.m[1].tau0 */
+    c->scaled_sample_time_over_tau0 = sample_time / REAL(96.0) / p->robot__m__1__tau0;
+
+    /* (1/96)*robot.m[1].ge.N*sample_time/robot.m[1].tau0 */
+    c->scaled_N_times_sample_time_over_tau0 = p->robot__m__1__ge__N * sample_time / REAL(96.0)
+            / p->robot__m__1__tau0;
+
+    /* (1/96)*sample_time/robot.m[2].tau0 */
+    c->scaled_sample_time_over_tau0_2 = sample_time / REAL(96.0) / p->robot__m__2__tau0;
+
+    /* (1/96)*robot.m[2].ge.N*sample_time/robot.m[2].tau0 */
+    c->scaled_N_times_sample_time_over_tau0_2 = p->robot__m__2__ge__N * sample_time / REAL(96.0)
+            / p->robot__m__2__tau0;
+
+    compute_r1(c, p, w);
+    compute_filter(c, pole, turn);
+    compute_r2(c, p, w);
+    compute_r3(c, p, w);
+    compute_r4(c, p, w);
 }
 
 static bool coefficients_are_finite(const khepera_plausible_coefficients *c)
@@ -457,27 +486,11 @@ static void run_r1(
     r[KHEPERA_PLAUSIBLE_R1] = y1 - e1;
 }
 
-/* r2 on one sample.
- * khepera.bg:41: r2 = robot.m[1].me.we - robot.m[1].ge.N*robot.m[1].wh.ws -
- * D(robot.m[1].wh.fs*robot.m[1].wh.ws + R[1]*robot.Fx[1] + Js[1]*D(robot.m[1].wh.ws) -
- * robot.m[1].tau0*robot.m[1].A*robot.m[1].ge.N*robot.m[1].me.K*tanh((Int(robot.m[1].me.we) -
- * robot.m[1].ge.N*Int(robot.m[1].wh.ws))/(4*robot.m[1].tau0)))/(robot.m[1].ge.N*robot.m[1].me.K) */
-static void run_r2(
-    const khepera_plausible_coefficients *c, khepera_plausible_memory *x, const khepera_plausible_samples *s, real *r)
+/* tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) -
+ * robot.m[1].ge.N*Int(robot.m[1].wh.ws)/(4*robot.m[1].tau0)) */
+static real run_r2_tanh(const khepera_plausible_coefficients *c, khepera_plausible_memory *x,
+        const khepera_plausible_samples *s, bool first)
 {
-    const bool first = x->youngest == 0u && x->age[1] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r2_s3 = REAL(0.0);
-        x->r2_s2 = REAL(0.0);
-        x->r2_s1 = REAL(0.0);
-    }
-
-    /* a stage of the filter; on the first sample it is at rest */
-    const real a = first ? -c->b : c->a;
-    const real b = first ? REAL(1.0) : c->b;
-
     /* sample_time/24 times robot.m[1].me.we/(4*robot.m[1].tau0) -
      * robot.m[1].ge.N*robot.m[1].wh.ws/(4*robot.m[1].tau0), what is integrated */
     const real rate = c->scaled_sample_time_over_tau0 * s->robot__m__1__me__we
@@ -499,6 +512,32 @@ static void run_r2(
     /* tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) -
      * robot.m[1].ge.N*Int(robot.m[1].wh.ws)/(4*robot.m[1].tau0)) */
     const real tanh_ = near_tanh(integral);
+
+    return tanh_;
+}
+
+/* r2 on one sample.
+ * khepera.bg:41: r2 = robot.m[1].me.we - robot.m[1].ge.N*robot.m[1].wh.ws -
+ * D(robot.m[1].wh.fs*robot.m[1].wh.ws + R[1]*robot.Fx[1] + Js[1]*D(robot.m[1].wh.ws) -
+ * robot.m[1].tau0*robot.m[1].A*robot.m[1].ge.N*robot.m[1].me.K*tanh((Int(robot.m[1].me.we) -
+ * robot.m[1].ge.N*Int(robot.m[1].wh.ws))/(4*robot.m[1].tau0)))/(robot.m[1].ge.N*robot.m[1].me.K) */
+static void run_r2(
+    const khepera_plausible_coefficients *c, khepera_plausible_memory *x, const khepera_plausible_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r2_s3 = REAL(0.0);
+        x->r2_s2 = REAL(0.0);
+        x->r2_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    const real tanh_ = run_r2_tanh(c, x, s, first);
 
     /* terms of order 0 */
     const real g0 = s->robot__m__1__me__we - c->r2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
@@ -604,27 +643,11 @@ static void run_r3(
     r[KHEPERA_PLAUSIBLE_R3] = y1 - e1;
 }
 
-/* r4 on one sample.
- * khepera.bg:41: r4 = robot.m[2].me.we - robot.m[2].ge.N*robot.m[2].wh.ws -
- * D(robot.m[2].wh.fs*robot.m[2].wh.ws + R[2]*robot.Fx[2] + Js[2]*D(robot.m[2].wh.ws) -
- * robot.m[2].tau0*robot.m[2].A*robot.m[2].ge.N*robot.m[2].me.K*tanh((Int(robot.m[2].me.we) -
- * robot.m[2].ge.N*Int(robot.m[2].wh.ws))/(4*robot.m[2].tau0)))/(robot.m[2].ge.N*robot.m[2].me.K) */
-static void run_r4(
-    const khepera_plausible_coefficients *c, khepera_plausible_memory *x, const khepera_plausible_samples *s, real *r)
+/* tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) -
+ * robot.m[2].ge.N*Int(robot.m[2].wh.ws)/(4*robot.m[2].tau0)) */
+static real run_r4_tanh(const khepera_plausible_coefficients *c, khepera_plausible_memory *x,
+        const khepera_plausible_samples *s, bool first)
 {
-    const bool first = x->youngest == 0u && x->age[3] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r4_s3 = REAL(0.0);
-        x->r4_s2 = REAL(0.0);
-        x->r4_s1 = REAL(0.0);
-    }
-
-    /* a stage of the filter; on the first sample it is at rest */
-    const real a = first ? -c->b : c->a;
-    const real b = first ? REAL(1.0) : c->b;
-
     /* sample_time/24 times robot.m[2].me.we/(4*robot.m[2].tau0) -
      * robot.m[2].ge.N*robot.m[2].wh.ws/(4*robot.m[2].tau0), what is integrated */
     const real rate = c->scaled_sample_time_over_tau0_2 * s->robot__m__2__me__we
@@ -646,6 +669,32 @@ static void run_r4(
     /* tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) -
      * robot.m[2].ge.N*Int(robot.m[2].wh.ws)/(4*robot.m[2].tau0)) */
     const real tanh_ = near_tanh(integral);
+
+    return tanh_;
+}
+
+/* r4 on one sample.
+ * khepera.bg:41: r4 = robot.m[2].me.we - robot.m[2].ge.N*robot.m[2].wh.ws -
+ * D(robot.m[2].wh.fs*robot.m[2].wh.ws + R[2]*robot.Fx[2] + Js[2]*D(robot.m[2].wh.ws) -
+ * robot.m[2].tau0*robot.m[2].A*robot.m[2].ge.N*robot.m[2].me.K*tanh((Int(robot.m[2].me.we) -
+ * robot.m[2].ge.N*Int(robot.m[2].wh.ws))/(4*robot.m[2].tau0)))/(robot.m[2].ge.N*robot.m[2].me.K) */
+static void run_r4(
+    const khepera_plausible_coefficients *c, khepera_plausible_memory *x, const khepera_plausible_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[3] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r4_s3 = REAL(0.0);
+        x->r4_s2 = REAL(0.0);
+        x->r4_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    const real tanh_ = run_r4_tanh(c, x, s, first);
 
     /* terms of order 0 */
     const real g0 = s->robot__m__2__me__we - c->r4_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
@@ -888,47 +937,13 @@ const khepera_plausible_threshold_coefficients khepera_plausible_threshold_nomin
     562u                             /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void bound_compute_coefficients(khepera_plausible_threshold_coefficients *c,
-        const khepera_plausible_parameters *p, real sample_time, real bandwidth)
+/* robot.m[1].el.L*robot.m[1].me.Je*w^2/robot.m[1].el.k; ...;
+ * robot.m[1].el.L*robot.m[1].wh.fs*w/(robot.m[1].ge.N*robot.m[1].el.k) */
+static void bound_compute_product_5_to_product_14(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real w, real fe_times_Re_over_k, real *product_5_out,
+        real *product_6_out, real *product_7_out, real *product_11_out, real *product_12_out,
+        real *product_13_out, real *product_14_out)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
-    /* w of the filter 1/(1 + D/w) */
-    const real w = turn / sample_time;
-
-    /* khepera.bg:17: fe[1]*robot.m[1].el.Re/robot.m[1].el.k */
-    const real fe_times_Re_over_k = p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k;
-
-    /* robot.m[1].el.Re*robot.m[1].wh.fs/(robot.m[1].ge.N*robot.m[1].el.k) */
-    const real product = p->robot__m__1__el__Re * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
-            / p->robot__m__1__el__k;
-
-    /* R[1]*robot.m[1].el.Re/(robot.m[1].ge.N*robot.m[1].el.k) */
-    const real product_2 = p->R__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
-            / p->robot__m__1__el__k;
-
-    /* fe[2]*robot.m[2].el.Re/robot.m[2].el.k */
-    const real fe_times_Re_over_k_2 = p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k;
-
-    /* robot.m[2].el.Re*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real product_3 = p->robot__m__2__el__Re * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k;
-
-    /* R[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real product_4 = p->R__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k;
-
-    /* turn^2 */
-    const real turn_2 = turn * turn;
-
     /* khepera.bg:17: robot.m[1].el.L*robot.m[1].me.Je*w^2/robot.m[1].el.k */
     const real product_5 = p->robot__m__1__el__L * p->robot__m__1__me__Je * w * w
             / p->robot__m__1__el__k;
@@ -940,18 +955,6 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
     /* R[1]*robot.m[1].el.L*w/(robot.m[1].ge.N*robot.m[1].el.k) */
     const real product_7 = p->R__1 * p->robot__m__1__el__L * w / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
-
-    /* robot.m[2].el.L*robot.m[2].me.Je*w^2/robot.m[2].el.k */
-    const real product_8 = p->robot__m__2__el__L * p->robot__m__2__me__Je * w * w
-            / p->robot__m__2__el__k;
-
-    /* Js[2]*robot.m[2].el.L*w^2/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real product_9 = p->Js__2 * p->robot__m__2__el__L * w * w / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k;
-
-    /* R[2]*robot.m[2].el.L*w/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real product_10 = p->R__2 * p->robot__m__2__el__L * w / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k;
 
     /* fe[1]*robot.m[1].el.L*w/robot.m[1].el.k */
     const real product_11 = p->fe__1 * p->robot__m__1__el__L * w / p->robot__m__1__el__k;
@@ -968,36 +971,25 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
     const real product_14 = p->robot__m__1__el__L * p->robot__m__1__wh__fs * w
             / p->robot__m__1__ge__N / p->robot__m__1__el__k;
 
-    /* fe[2]*robot.m[2].el.L*w/robot.m[2].el.k */
-    const real product_15 = p->fe__2 * p->robot__m__2__el__L * w / p->robot__m__2__el__k;
-
-    /* Js[2]*robot.m[2].el.Re*w/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real product_16 = p->Js__2 * p->robot__m__2__el__Re * w / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k;
-
-    /* robot.m[2].el.Re*robot.m[2].me.Je*w/robot.m[2].el.k */
-    const real product_17 = p->robot__m__2__el__Re * p->robot__m__2__me__Je * w
-            / p->robot__m__2__el__k;
-
-    /* robot.m[2].el.L*robot.m[2].wh.fs*w/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real product_18 = p->robot__m__2__el__L * p->robot__m__2__wh__fs * w
-            / p->robot__m__2__ge__N / p->robot__m__2__el__k;
-
     /* r1_w1: factor of robot.m[1].me.we */
     c->r1_w1_robot__m__1__me__we = fe_times_Re_over_k / REAL(10.0);
 
     /* r1_w1: factor of robot.m[1].me.we' */
     c->r1_w1_w1_robot__m__1__me__we = product_11 / REAL(10.0);
 
-    /* filter: 1 * (w*sample_time)^2/12 */
-    c->bend1 = turn_2 / REAL(12.0);
+    *product_5_out = product_5;
+    *product_6_out = product_6;
+    *product_7_out = product_7;
+    *product_11_out = product_11;
+    *product_12_out = product_12;
+    *product_13_out = product_13;
+    *product_14_out = product_14;
+}
 
-    /* filter: what is left of a memory a sample later */
-    c->a = pole;
-
-    /* filter: weight of a sample, new and a sample later */
-    c->b = REAL(0.5) * (REAL(1.0) - pole);
-
+/* r1_w2: coefficients */
+static void bound_compute_r1_w2(khepera_plausible_threshold_coefficients *c,
+        real fe_times_Re_over_k, real product, real product_2, real product_12, real product_13)
+{
     /* khepera.bg:17: r1_w2: factor of robot.Fx[1] */
     c->r1_w2_robot__Fx__1 = product_2 / REAL(20.0);
 
@@ -1012,8 +1004,14 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
 
     /* r1_w2: factor of robot.m[1].me.we' */
     c->r1_w2_w1_robot__m__1__me__we = product_13 / REAL(20.0);
+}
 
-    /* r1_w3: factor of robot.m[1].me.we */
+/* r1_w3: coefficients */
+static void bound_compute_r1_w3(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real w, real product, real product_2, real product_5,
+        real product_6, real product_7)
+{
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we */
     c->r1_w3_robot__m__1__me__we = p->robot__m__1__el__k
             * (p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k / p->robot__m__1__el__k
             - REAL(1.0)) / REAL(50.0);
@@ -1047,26 +1045,13 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
 
     /* r1_w3: factor of robot.m[1].wh.ws'' */
     c->r1_w3_w2_robot__m__1__wh__ws = product_6 / REAL(50.0);
+}
 
-    /* filter: 2 * (w*sample_time)^2/12 */
-    c->bend2 = turn_2 / REAL(6.0);
-
-    /* khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws */
-    c->r1_w4_robot__m__1__wh__ws = product / REAL(10.0);
-
-    /* r1_w4: factor of robot.m[1].wh.ws' */
-    c->r1_w4_w1_robot__m__1__wh__ws = product_14 / REAL(10.0);
-
-    /* r1_w5: factor of robot.m[1].me.we */
-    c->r1_w5_robot__m__1__me__we = fe_times_Re_over_k / REAL(146.0);
-
-    /* r1_w6: factor of robot.m[1].me.we */
-    c->r1_w6_robot__m__1__me__we = fe_times_Re_over_k / REAL(365.0);
-
-    /* r1_w6: factor of robot.m[1].me.we' */
-    c->r1_w6_w1_robot__m__1__me__we = product_11 / REAL(365.0);
-
-    /* r1_w7: factor of robot.m[1].me.we */
+/* r1_w7: coefficients */
+static void bound_compute_r1_w7(khepera_plausible_threshold_coefficients *c,
+        real fe_times_Re_over_k, real product, real product_2, real product_12, real product_13)
+{
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].me.we */
     c->r1_w7_robot__m__1__me__we = fe_times_Re_over_k / REAL(730.0);
 
     /* r1_w7: factor of robot.m[1].me.we' */
@@ -1080,11 +1065,14 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
 
     /* r1_w7: factor of robot.Fx[1] */
     c->r1_w7_robot__Fx__1 = product_2 / REAL(730.0);
+}
 
-    /* r1_w8: factor of robot.m[1].wh.ws */
-    c->r1_w8_robot__m__1__wh__ws = product / REAL(146.0);
-
-    /* r1_w9: factor of robot.m[1].me.we */
+/* r1_w9: coefficients */
+static void bound_compute_r1_w9(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real w, real fe_times_Re_over_k, real product,
+        real product_2, real product_5, real product_6, real product_7)
+{
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we */
     c->r1_w9_robot__m__1__me__we = fe_times_Re_over_k / REAL(1825.0);
 
     /* r1_w9: factor of robot.m[1].me.we' */
@@ -1117,24 +1105,139 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
 
     /* r1_w9: factor of robot.Fx[1]' */
     c->r1_w9_w1_robot__Fx__1 = product_7 / REAL(1825.0);
+}
 
-    /* r1_w10: factor of robot.m[1].wh.ws */
+/* r1: coefficients */
+static void bound_compute_r1(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real w)
+{
+    /* khepera.bg:17: fe[1]*robot.m[1].el.Re/robot.m[1].el.k */
+    const real fe_times_Re_over_k = p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k;
+
+    /* robot.m[1].el.Re*robot.m[1].wh.fs/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real product = p->robot__m__1__el__Re * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
+            / p->robot__m__1__el__k;
+
+    /* R[1]*robot.m[1].el.Re/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real product_2 = p->R__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
+            / p->robot__m__1__el__k;
+
+    real product_5;
+    real product_6;
+    real product_7;
+    real product_11;
+    real product_12;
+    real product_13;
+    real product_14;
+
+    bound_compute_product_5_to_product_14(c, p, w, fe_times_Re_over_k, &product_5, &product_6,
+            &product_7, &product_11, &product_12, &product_13, &product_14);
+    bound_compute_r1_w2(c, fe_times_Re_over_k, product, product_2, product_12, product_13);
+    bound_compute_r1_w3(c, p, w, product, product_2, product_5, product_6, product_7);
+
+    /* khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws */
+    c->r1_w4_robot__m__1__wh__ws = product / REAL(10.0);
+
+    /* r1_w4: factor of robot.m[1].wh.ws' */
+    c->r1_w4_w1_robot__m__1__wh__ws = product_14 / REAL(10.0);
+
+    /* r1_w5: factor of robot.m[1].me.we */
+    c->r1_w5_robot__m__1__me__we = fe_times_Re_over_k / REAL(146.0);
+
+    /* r1_w6: factor of robot.m[1].me.we */
+    c->r1_w6_robot__m__1__me__we = fe_times_Re_over_k / REAL(365.0);
+
+    /* r1_w6: factor of robot.m[1].me.we' */
+    c->r1_w6_w1_robot__m__1__me__we = product_11 / REAL(365.0);
+
+    bound_compute_r1_w7(c, fe_times_Re_over_k, product, product_2, product_12, product_13);
+
+    /* khepera.bg:17: r1_w8: factor of robot.m[1].wh.ws */
+    c->r1_w8_robot__m__1__wh__ws = product / REAL(146.0);
+
+    bound_compute_r1_w9(c, p, w, fe_times_Re_over_k, product, product_2, product_5, product_6,
+            product_7);
+
+    /* khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws */
     c->r1_w10_robot__m__1__wh__ws = product / REAL(365.0);
 
     /* r1_w10: factor of robot.m[1].wh.ws' */
     c->r1_w10_w1_robot__m__1__wh__ws = product_14 / REAL(365.0);
+}
 
-    /* khepera.bg:41: r2_w1: factor of robot.m[1].wh.ws' */
-    c->r2_w1_w1_robot__m__1__wh__ws = p->robot__m__1__wh__fs * w / REAL(10.0)
-            / p->robot__m__1__ge__N / p->robot__m__1__me__K;
+/* filter: coefficients */
+static void bound_compute_filter(khepera_plausible_threshold_coefficients *c, real pole, real turn)
+{
+    /* turn^2 */
+    const real turn_2 = turn * turn;
 
-    /* khepera.bg:17: r3_w1: factor of robot.m[2].me.we */
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn_2 / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = turn_2 / REAL(6.0);
+}
+
+/* robot.m[2].el.L*robot.m[2].me.Je*w^2/robot.m[2].el.k; ...;
+ * robot.m[2].el.L*robot.m[2].wh.fs*w/(robot.m[2].ge.N*robot.m[2].el.k) */
+static void bound_compute_product_8_to_product_18(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real w, real fe_times_Re_over_k_2,
+        real *product_8_out, real *product_9_out, real *product_10_out, real *product_15_out,
+        real *product_16_out, real *product_17_out, real *product_18_out)
+{
+    /* khepera.bg:17: robot.m[2].el.L*robot.m[2].me.Je*w^2/robot.m[2].el.k */
+    const real product_8 = p->robot__m__2__el__L * p->robot__m__2__me__Je * w * w
+            / p->robot__m__2__el__k;
+
+    /* Js[2]*robot.m[2].el.L*w^2/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real product_9 = p->Js__2 * p->robot__m__2__el__L * w * w / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* R[2]*robot.m[2].el.L*w/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real product_10 = p->R__2 * p->robot__m__2__el__L * w / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* fe[2]*robot.m[2].el.L*w/robot.m[2].el.k */
+    const real product_15 = p->fe__2 * p->robot__m__2__el__L * w / p->robot__m__2__el__k;
+
+    /* Js[2]*robot.m[2].el.Re*w/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real product_16 = p->Js__2 * p->robot__m__2__el__Re * w / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* robot.m[2].el.Re*robot.m[2].me.Je*w/robot.m[2].el.k */
+    const real product_17 = p->robot__m__2__el__Re * p->robot__m__2__me__Je * w
+            / p->robot__m__2__el__k;
+
+    /* robot.m[2].el.L*robot.m[2].wh.fs*w/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real product_18 = p->robot__m__2__el__L * p->robot__m__2__wh__fs * w
+            / p->robot__m__2__ge__N / p->robot__m__2__el__k;
+
+    /* r3_w1: factor of robot.m[2].me.we */
     c->r3_w1_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(10.0);
 
     /* r3_w1: factor of robot.m[2].me.we' */
     c->r3_w1_w1_robot__m__2__me__we = product_15 / REAL(10.0);
 
-    /* r3_w2: factor of robot.Fx[2] */
+    *product_8_out = product_8;
+    *product_9_out = product_9;
+    *product_10_out = product_10;
+    *product_15_out = product_15;
+    *product_16_out = product_16;
+    *product_17_out = product_17;
+    *product_18_out = product_18;
+}
+
+/* r3_w2: coefficients */
+static void bound_compute_r3_w2(khepera_plausible_threshold_coefficients *c,
+        real fe_times_Re_over_k_2, real product_3, real product_4, real product_16, real product_17)
+{
+    /* khepera.bg:17: r3_w2: factor of robot.Fx[2] */
     c->r3_w2_robot__Fx__2 = product_4 / REAL(20.0);
 
     /* r3_w2: factor of robot.m[2].wh.ws */
@@ -1148,8 +1251,14 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
 
     /* r3_w2: factor of robot.m[2].me.we' */
     c->r3_w2_w1_robot__m__2__me__we = product_17 / REAL(20.0);
+}
 
-    /* r3_w3: factor of robot.m[2].me.we */
+/* r3_w3: coefficients */
+static void bound_compute_r3_w3(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real w, real product_3, real product_4,
+        real product_8, real product_9, real product_10)
+{
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we */
     c->r3_w3_robot__m__2__me__we = p->robot__m__2__el__k
             * (p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k / p->robot__m__2__el__k
             - REAL(1.0)) / REAL(50.0);
@@ -1183,23 +1292,13 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
 
     /* r3_w3: factor of robot.m[2].wh.ws'' */
     c->r3_w3_w2_robot__m__2__wh__ws = product_9 / REAL(50.0);
+}
 
-    /* r3_w4: factor of robot.m[2].wh.ws */
-    c->r3_w4_robot__m__2__wh__ws = product_3 / REAL(10.0);
-
-    /* r3_w4: factor of robot.m[2].wh.ws' */
-    c->r3_w4_w1_robot__m__2__wh__ws = product_18 / REAL(10.0);
-
-    /* r3_w5: factor of robot.m[2].me.we */
-    c->r3_w5_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(146.0);
-
-    /* r3_w6: factor of robot.m[2].me.we */
-    c->r3_w6_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(365.0);
-
-    /* r3_w6: factor of robot.m[2].me.we' */
-    c->r3_w6_w1_robot__m__2__me__we = product_15 / REAL(365.0);
-
-    /* r3_w7: factor of robot.m[2].me.we */
+/* r3_w7: coefficients */
+static void bound_compute_r3_w7(khepera_plausible_threshold_coefficients *c,
+        real fe_times_Re_over_k_2, real product_3, real product_4, real product_16, real product_17)
+{
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].me.we */
     c->r3_w7_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(730.0);
 
     /* r3_w7: factor of robot.m[2].me.we' */
@@ -1213,11 +1312,14 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
 
     /* r3_w7: factor of robot.Fx[2] */
     c->r3_w7_robot__Fx__2 = product_4 / REAL(730.0);
+}
 
-    /* r3_w8: factor of robot.m[2].wh.ws */
-    c->r3_w8_robot__m__2__wh__ws = product_3 / REAL(146.0);
-
-    /* r3_w9: factor of robot.m[2].me.we */
+/* r3_w9: coefficients */
+static void bound_compute_r3_w9(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real w, real fe_times_Re_over_k_2, real product_3,
+        real product_4, real product_8, real product_9, real product_10)
+{
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we */
     c->r3_w9_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(1825.0);
 
     /* r3_w9: factor of robot.m[2].me.we' */
@@ -1250,12 +1352,90 @@ static void bound_compute_coefficients(khepera_plausible_threshold_coefficients 
 
     /* r3_w9: factor of robot.Fx[2]' */
     c->r3_w9_w1_robot__Fx__2 = product_10 / REAL(1825.0);
+}
 
-    /* r3_w10: factor of robot.m[2].wh.ws */
+/* r3: coefficients */
+static void bound_compute_r3(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real w)
+{
+    /* khepera.bg:17: fe[2]*robot.m[2].el.Re/robot.m[2].el.k */
+    const real fe_times_Re_over_k_2 = p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k;
+
+    /* robot.m[2].el.Re*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real product_3 = p->robot__m__2__el__Re * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* R[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real product_4 = p->R__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    real product_8;
+    real product_9;
+    real product_10;
+    real product_15;
+    real product_16;
+    real product_17;
+    real product_18;
+
+    bound_compute_product_8_to_product_18(c, p, w, fe_times_Re_over_k_2, &product_8, &product_9,
+            &product_10, &product_15, &product_16, &product_17, &product_18);
+    bound_compute_r3_w2(c, fe_times_Re_over_k_2, product_3, product_4, product_16, product_17);
+    bound_compute_r3_w3(c, p, w, product_3, product_4, product_8, product_9, product_10);
+
+    /* khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws */
+    c->r3_w4_robot__m__2__wh__ws = product_3 / REAL(10.0);
+
+    /* r3_w4: factor of robot.m[2].wh.ws' */
+    c->r3_w4_w1_robot__m__2__wh__ws = product_18 / REAL(10.0);
+
+    /* r3_w5: factor of robot.m[2].me.we */
+    c->r3_w5_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(146.0);
+
+    /* r3_w6: factor of robot.m[2].me.we */
+    c->r3_w6_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(365.0);
+
+    /* r3_w6: factor of robot.m[2].me.we' */
+    c->r3_w6_w1_robot__m__2__me__we = product_15 / REAL(365.0);
+
+    bound_compute_r3_w7(c, fe_times_Re_over_k_2, product_3, product_4, product_16, product_17);
+
+    /* khepera.bg:17: r3_w8: factor of robot.m[2].wh.ws */
+    c->r3_w8_robot__m__2__wh__ws = product_3 / REAL(146.0);
+
+    bound_compute_r3_w9(c, p, w, fe_times_Re_over_k_2, product_3, product_4, product_8, product_9,
+            product_10);
+
+    /* khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws */
     c->r3_w10_robot__m__2__wh__ws = product_3 / REAL(365.0);
 
     /* r3_w10: factor of robot.m[2].wh.ws' */
     c->r3_w10_w1_robot__m__2__wh__ws = product_18 / REAL(365.0);
+}
+
+/* The coefficients, from the parameters. */
+static void bound_compute_coefficients(khepera_plausible_threshold_coefficients *c,
+        const khepera_plausible_parameters *p, real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    bound_compute_r1(c, p, w);
+    bound_compute_filter(c, pole, turn);
+
+    /* khepera.bg:41: r2_w1: factor of robot.m[1].wh.ws' */
+    c->r2_w1_w1_robot__m__1__wh__ws = p->robot__m__1__wh__fs * w / REAL(10.0)
+            / p->robot__m__1__ge__N / p->robot__m__1__me__K;
+
+    bound_compute_r3(c, p, w);
 
     /* khepera.bg:41: r4_w1: factor of robot.m[2].wh.ws' */
     c->r4_w1_w1_robot__m__2__wh__ws = p->robot__m__2__wh__fs * w / REAL(10.0)
@@ -1330,24 +1510,11 @@ khepera_plausible_status khepera_plausible_threshold_configure(
     return KHEPERA_PLAUSIBLE_OK;
 }
 
-/* r1 on one sample.
- * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
-static void bound_r1(
-    const khepera_plausible_threshold_coefficients *c, khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, real *r)
+/* what the tolerance of fe[1] can do */
+static real bound_r1_w1(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, real w1_a,
+        real w1_b)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r1_w1_s3 = REAL(0.0);
-        x->r1_w1_s2 = REAL(0.0);
-        x->r1_w1_s1 = REAL(0.0);
-    }
-
-    /* r1_w1: a stage of the filter; on the first sample it is at rest */
-    const real w1_a = first ? -c->b : c->a;
-    const real w1_b = first ? REAL(1.0) : c->b;
-
     /* r1_w1: terms of order 0 */
     const real w1_g0 = c->r1_w1_robot__m__1__me__we * s->robot__m__1__me__we;
 
@@ -1378,6 +1545,14 @@ static void bound_r1(
     /* what the tolerance of fe[1] can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* what the tolerance of robot.m[1].el.Re can do */
+static real bound_r1_w2(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w2_s3 = REAL(0.0);
@@ -1418,6 +1593,14 @@ static void bound_r1(
     /* what the tolerance of robot.m[1].el.Re can do */
     const real w2 = w2_y1;
 
+    return w2;
+}
+
+/* what the tolerance of robot.m[1].el.k can do */
+static real bound_r1_w3(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w3_s3 = REAL(0.0);
@@ -1468,6 +1651,14 @@ static void bound_r1(
     /* what the tolerance of robot.m[1].el.k can do */
     const real w3 = w3_y1 - w3_e1;
 
+    return w3;
+}
+
+/* what the tolerance of robot.m[1].wh.fs can do */
+static real bound_r1_w4(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w4_s3 = REAL(0.0);
@@ -1505,6 +1696,14 @@ static void bound_r1(
     /* what the tolerance of robot.m[1].wh.fs can do */
     const real w4 = w4_y1;
 
+    return w4;
+}
+
+/* what the tolerances of fe[1] and robot.m[1].el.Re can do together */
+static real bound_r1_w5(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w5_s3 = REAL(0.0);
@@ -1530,6 +1729,14 @@ static void bound_r1(
     /* what the tolerances of fe[1] and robot.m[1].el.Re can do together */
     const real w5 = w5_y1;
 
+    return w5;
+}
+
+/* what the tolerances of fe[1] and robot.m[1].el.k can do together */
+static real bound_r1_w6(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w6_s3 = REAL(0.0);
@@ -1567,6 +1774,14 @@ static void bound_r1(
     /* what the tolerances of fe[1] and robot.m[1].el.k can do together */
     const real w6 = w6_y1;
 
+    return w6;
+}
+
+/* what the tolerances of robot.m[1].el.Re and robot.m[1].el.k can do together */
+static real bound_r1_w7(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w7_s3 = REAL(0.0);
@@ -1607,6 +1822,14 @@ static void bound_r1(
     /* what the tolerances of robot.m[1].el.Re and robot.m[1].el.k can do together */
     const real w7 = w7_y1;
 
+    return w7;
+}
+
+/* what the tolerances of robot.m[1].el.Re and robot.m[1].wh.fs can do together */
+static real bound_r1_w8(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w8_s3 = REAL(0.0);
@@ -1632,6 +1855,14 @@ static void bound_r1(
     /* what the tolerances of robot.m[1].el.Re and robot.m[1].wh.fs can do together */
     const real w8 = w8_y1;
 
+    return w8;
+}
+
+/* second order of what the tolerance of robot.m[1].el.k can do */
+static real bound_r1_w9(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w9_s3 = REAL(0.0);
@@ -1682,6 +1913,14 @@ static void bound_r1(
     /* second order of what the tolerance of robot.m[1].el.k can do */
     const real w9 = w9_y1 - w9_e1;
 
+    return w9;
+}
+
+/* what the tolerances of robot.m[1].el.k and robot.m[1].wh.fs can do together */
+static real bound_r1_w10(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r1_w10_s3 = REAL(0.0);
@@ -1718,6 +1957,38 @@ static void bound_r1(
 
     /* what the tolerances of robot.m[1].el.k and robot.m[1].wh.fs can do together */
     const real w10 = w10_y1;
+
+    return w10;
+}
+
+/* r1 on one sample.
+ * khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
+static void bound_r1(
+    const khepera_plausible_threshold_coefficients *c, khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_w1_s3 = REAL(0.0);
+        x->r1_w1_s2 = REAL(0.0);
+        x->r1_w1_s1 = REAL(0.0);
+    }
+
+    /* r1_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    const real w1 = bound_r1_w1(c, x, s, w1_a, w1_b);
+    const real w2 = bound_r1_w2(c, x, s, first, w1_a, w1_b);
+    const real w3 = bound_r1_w3(c, x, s, first, w1_a, w1_b);
+    const real w4 = bound_r1_w4(c, x, s, first, w1_a, w1_b);
+    const real w5 = bound_r1_w5(c, x, s, first, w1_a, w1_b);
+    const real w6 = bound_r1_w6(c, x, s, first, w1_a, w1_b);
+    const real w7 = bound_r1_w7(c, x, s, first, w1_a, w1_b);
+    const real w8 = bound_r1_w8(c, x, s, first, w1_a, w1_b);
+    const real w9 = bound_r1_w9(c, x, s, first, w1_a, w1_b);
+    const real w10 = bound_r1_w10(c, x, s, first, w1_a, w1_b);
 
     r[KHEPERA_PLAUSIBLE_R1] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
@@ -1766,24 +2037,11 @@ static void bound_r2(
     r[KHEPERA_PLAUSIBLE_R2] = MATH(fabs)(w1);
 }
 
-/* r3 on one sample.
- * khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
-static void bound_r3(
-    const khepera_plausible_threshold_coefficients *c, khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, real *r)
+/* what the tolerance of fe[2] can do */
+static real bound_r3_w1(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, real w1_a,
+        real w1_b)
 {
-    const bool first = x->youngest == 0u && x->age[2] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r3_w1_s3 = REAL(0.0);
-        x->r3_w1_s2 = REAL(0.0);
-        x->r3_w1_s1 = REAL(0.0);
-    }
-
-    /* r3_w1: a stage of the filter; on the first sample it is at rest */
-    const real w1_a = first ? -c->b : c->a;
-    const real w1_b = first ? REAL(1.0) : c->b;
-
     /* r3_w1: terms of order 0 */
     const real w1_g0 = c->r3_w1_robot__m__2__me__we * s->robot__m__2__me__we;
 
@@ -1814,6 +2072,14 @@ static void bound_r3(
     /* what the tolerance of fe[2] can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* what the tolerance of robot.m[2].el.Re can do */
+static real bound_r3_w2(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w2_s3 = REAL(0.0);
@@ -1854,6 +2120,14 @@ static void bound_r3(
     /* what the tolerance of robot.m[2].el.Re can do */
     const real w2 = w2_y1;
 
+    return w2;
+}
+
+/* what the tolerance of robot.m[2].el.k can do */
+static real bound_r3_w3(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w3_s3 = REAL(0.0);
@@ -1904,6 +2178,14 @@ static void bound_r3(
     /* what the tolerance of robot.m[2].el.k can do */
     const real w3 = w3_y1 - w3_e1;
 
+    return w3;
+}
+
+/* what the tolerance of robot.m[2].wh.fs can do */
+static real bound_r3_w4(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w4_s3 = REAL(0.0);
@@ -1941,6 +2223,14 @@ static void bound_r3(
     /* what the tolerance of robot.m[2].wh.fs can do */
     const real w4 = w4_y1;
 
+    return w4;
+}
+
+/* what the tolerances of fe[2] and robot.m[2].el.Re can do together */
+static real bound_r3_w5(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w5_s3 = REAL(0.0);
@@ -1966,6 +2256,14 @@ static void bound_r3(
     /* what the tolerances of fe[2] and robot.m[2].el.Re can do together */
     const real w5 = w5_y1;
 
+    return w5;
+}
+
+/* what the tolerances of fe[2] and robot.m[2].el.k can do together */
+static real bound_r3_w6(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w6_s3 = REAL(0.0);
@@ -2003,6 +2301,14 @@ static void bound_r3(
     /* what the tolerances of fe[2] and robot.m[2].el.k can do together */
     const real w6 = w6_y1;
 
+    return w6;
+}
+
+/* what the tolerances of robot.m[2].el.Re and robot.m[2].el.k can do together */
+static real bound_r3_w7(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w7_s3 = REAL(0.0);
@@ -2043,6 +2349,14 @@ static void bound_r3(
     /* what the tolerances of robot.m[2].el.Re and robot.m[2].el.k can do together */
     const real w7 = w7_y1;
 
+    return w7;
+}
+
+/* what the tolerances of robot.m[2].el.Re and robot.m[2].wh.fs can do together */
+static real bound_r3_w8(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w8_s3 = REAL(0.0);
@@ -2068,6 +2382,14 @@ static void bound_r3(
     /* what the tolerances of robot.m[2].el.Re and robot.m[2].wh.fs can do together */
     const real w8 = w8_y1;
 
+    return w8;
+}
+
+/* second order of what the tolerance of robot.m[2].el.k can do */
+static real bound_r3_w9(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w9_s3 = REAL(0.0);
@@ -2118,6 +2440,14 @@ static void bound_r3(
     /* second order of what the tolerance of robot.m[2].el.k can do */
     const real w9 = w9_y1 - w9_e1;
 
+    return w9;
+}
+
+/* what the tolerances of robot.m[2].el.k and robot.m[2].wh.fs can do together */
+static real bound_r3_w10(const khepera_plausible_threshold_coefficients *c,
+        khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, bool first,
+        real w1_a, real w1_b)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r3_w10_s3 = REAL(0.0);
@@ -2154,6 +2484,38 @@ static void bound_r3(
 
     /* what the tolerances of robot.m[2].el.k and robot.m[2].wh.fs can do together */
     const real w10 = w10_y1;
+
+    return w10;
+}
+
+/* r3 on one sample.
+ * khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
+static void bound_r3(
+    const khepera_plausible_threshold_coefficients *c, khepera_plausible_threshold_memory *x, const khepera_plausible_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[2] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r3_w1_s3 = REAL(0.0);
+        x->r3_w1_s2 = REAL(0.0);
+        x->r3_w1_s1 = REAL(0.0);
+    }
+
+    /* r3_w1: a stage of the filter; on the first sample it is at rest */
+    const real w1_a = first ? -c->b : c->a;
+    const real w1_b = first ? REAL(1.0) : c->b;
+
+    const real w1 = bound_r3_w1(c, x, s, w1_a, w1_b);
+    const real w2 = bound_r3_w2(c, x, s, first, w1_a, w1_b);
+    const real w3 = bound_r3_w3(c, x, s, first, w1_a, w1_b);
+    const real w4 = bound_r3_w4(c, x, s, first, w1_a, w1_b);
+    const real w5 = bound_r3_w5(c, x, s, first, w1_a, w1_b);
+    const real w6 = bound_r3_w6(c, x, s, first, w1_a, w1_b);
+    const real w7 = bound_r3_w7(c, x, s, first, w1_a, w1_b);
+    const real w8 = bound_r3_w8(c, x, s, first, w1_a, w1_b);
+    const real w9 = bound_r3_w9(c, x, s, first, w1_a, w1_b);
+    const real w10 = bound_r3_w10(c, x, s, first, w1_a, w1_b);
 
     r[KHEPERA_PLAUSIBLE_R3] = MATH(fabs)(w1) + MATH(fabs)(w2) + MATH(fabs)(w3) + MATH(fabs)(w4)
         + MATH(fabs)(w5) + MATH(fabs)(w6) + MATH(fabs)(w7) + MATH(fabs)(w8) + MATH(fabs)(w9)
@@ -2380,12 +2742,27 @@ static void forget_sums(khepera_plausible_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined KHEPERA_PLAUSIBLE_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const khepera_plausible_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     khepera_plausible_diagnosis *d, const khepera_plausible_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -2477,6 +2854,7 @@ void khepera_plausible_clear(khepera_plausible_diagnosis *diagnosis)
     diagnosis->fault_class = KHEPERA_PLAUSIBLE_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void khepera_plausible_diagnosis_reset(khepera_plausible_diagnosis *diagnosis)
@@ -2494,6 +2872,40 @@ void khepera_plausible_diagnosis_reset(khepera_plausible_diagnosis *diagnosis)
     khepera_plausible_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const khepera_plausible_limit *limits, const real *bounds, const khepera_plausible_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(khepera_plausible_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == KHEPERA_PLAUSIBLE_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = KHEPERA_PLAUSIBLE_BLIND;
+    }
+}
+
 bool khepera_plausible_diagnose(
     khepera_plausible_diagnosis *diagnosis,
     const khepera_plausible_limit *limits,
@@ -2508,6 +2920,10 @@ bool khepera_plausible_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -2519,13 +2935,9 @@ bool khepera_plausible_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == KHEPERA_PLAUSIBLE_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = KHEPERA_PLAUSIBLE_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == KHEPERA_PLAUSIBLE_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == KHEPERA_PLAUSIBLE_ALARM;
     }
     if (fresh) {

@@ -544,6 +544,7 @@ typedef struct khepera_plausible_diagnosis {
     int16_t fault_class; /* the one that is left, or KHEPERA_PLAUSIBLE_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     khepera_plausible_real above[KHEPERA_PLAUSIBLE_RESIDUALS];
     khepera_plausible_real below[KHEPERA_PLAUSIBLE_RESIDUALS];
     khepera_plausible_real louder[KHEPERA_PLAUSIBLE_RESIDUALS];

@@ -4,6 +4,7 @@
 #ifndef MICROPHONE_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -692,12 +693,27 @@ static void forget_sums(microphone_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined MICROPHONE_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const microphone_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     microphone_diagnosis *d, const microphone_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -789,6 +805,7 @@ void microphone_clear(microphone_diagnosis *diagnosis)
     diagnosis->fault_class = MICROPHONE_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void microphone_diagnosis_reset(microphone_diagnosis *diagnosis)
@@ -806,6 +823,40 @@ void microphone_diagnosis_reset(microphone_diagnosis *diagnosis)
     microphone_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const microphone_limit *limits, const real *bounds, const microphone_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < MICROPHONE_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < MICROPHONE_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(microphone_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == MICROPHONE_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = MICROPHONE_BLIND;
+    }
+}
+
 bool microphone_diagnose(
     microphone_diagnosis *diagnosis,
     const microphone_limit *limits,
@@ -820,6 +871,10 @@ bool microphone_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -831,13 +886,9 @@ bool microphone_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == MICROPHONE_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = MICROPHONE_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == MICROPHONE_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == MICROPHONE_ALARM;
     }
     if (fresh) {

@@ -290,6 +290,7 @@ typedef struct microphone_diagnosis {
     int16_t fault_class; /* the one that is left, or MICROPHONE_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     microphone_real above[MICROPHONE_RESIDUALS];
     microphone_real below[MICROPHONE_RESIDUALS];
     microphone_real louder[MICROPHONE_RESIDUALS];

@@ -4,6 +4,7 @@
 #ifndef OVEN_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -191,17 +192,10 @@ oven_status oven_configure(
     return OVEN_OK;
 }
 
-/* r1 on one sample.
- * oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th) */
-static void run_r1(
-    const oven_coefficients *c, oven_memory *x, const oven_samples *s, real *r)
+/* error of order 0; stage 1 */
+static void run_r1_e0_to_y1(const oven_coefficients *c, oven_memory *x, const oven_samples *s,
+        bool first, real kept_, real *e0_out, real *y1_out)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-
-    /* 0 where on changes */
-    const real kept_ = first ? REAL(1.0)
-        : (equal(x->r1_on, (s->on ? REAL(1.0) : REAL(0.0))) ? REAL(1.0) : REAL(0.0));
-
     /* on for the next sample */
     x->r1_on = s->on ? REAL(1.0) : REAL(0.0);
 
@@ -255,6 +249,26 @@ static void run_r1(
 
     /* stage 1: memory */
     x->r1_s1 = c->a * y1 + c->b * u1;
+
+    *e0_out = e0;
+    *y1_out = y1;
+}
+
+/* r1 on one sample.
+ * oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th) */
+static void run_r1(
+    const oven_coefficients *c, oven_memory *x, const oven_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    /* 0 where on changes */
+    const real kept_ = first ? REAL(1.0)
+        : (equal(x->r1_on, (s->on ? REAL(1.0) : REAL(0.0))) ? REAL(1.0) : REAL(0.0));
+
+    real e0;
+    real y1;
+
+    run_r1_e0_to_y1(c, x, s, first, kept_, &e0, &y1);
 
     r[OVEN_R1] = y1 - e0;
 }
@@ -518,25 +532,10 @@ static void bound_r1(
     r[OVEN_R1] = MATH(fabs)(w1);
 }
 
-/* r2 on one sample.
- * oven.bg:15: r2: how far r2 can be from zero if no parameter is out of tolerance */
-static void bound_r2(
-    const oven_threshold_coefficients *c, oven_threshold_memory *x, const oven_samples *s, real *r)
+/* what the tolerance of Gh can do */
+static real bound_r2_w1(const oven_threshold_coefficients *c, oven_threshold_memory *x,
+        const oven_samples *s, bool first, real phi0)
 {
-    const bool first = x->youngest == 0u && x->age[1] == 0u;
-
-    /* how much of the start is over */
-    const real u = first ? REAL(0.0) : least(REAL(1.0), x->r2_open + c->r1_pace);
-
-    /* the same, for the next sample */
-    x->r2_open = u;
-
-    /* how much is to come */
-    const real rest = REAL(1.0) - u;
-
-    /* the window */
-    const real phi0 = u * u * u * (REAL(1.0) + rest * (REAL(3.0) + rest * REAL(6.0)));
-
     if (first) {
         /* nothing is remembered yet */
         x->r2_w1_s2 = REAL(0.0);
@@ -560,6 +559,13 @@ static void bound_r2(
     /* what the tolerance of Gh can do */
     const real w1 = w1_y1;
 
+    return w1;
+}
+
+/* what the tolerance of Go can do */
+static real bound_r2_w2(const oven_threshold_coefficients *c, oven_threshold_memory *x,
+        const oven_samples *s, bool first, real phi0)
+{
     if (first) {
         /* nothing is remembered yet */
         x->r2_w2_s2 = REAL(0.0);
@@ -582,6 +588,31 @@ static void bound_r2(
 
     /* what the tolerance of Go can do */
     const real w2 = w2_y1;
+
+    return w2;
+}
+
+/* r2 on one sample.
+ * oven.bg:15: r2: how far r2 can be from zero if no parameter is out of tolerance */
+static void bound_r2(
+    const oven_threshold_coefficients *c, oven_threshold_memory *x, const oven_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[1] == 0u;
+
+    /* how much of the start is over */
+    const real u = first ? REAL(0.0) : least(REAL(1.0), x->r2_open + c->r1_pace);
+
+    /* the same, for the next sample */
+    x->r2_open = u;
+
+    /* how much is to come */
+    const real rest = REAL(1.0) - u;
+
+    /* the window */
+    const real phi0 = u * u * u * (REAL(1.0) + rest * (REAL(3.0) + rest * REAL(6.0)));
+
+    const real w1 = bound_r2_w1(c, x, s, first, phi0);
+    const real w2 = bound_r2_w2(c, x, s, first, phi0);
 
     r[OVEN_R2] = MATH(fabs)(w1) + MATH(fabs)(w2);
 }
@@ -725,12 +756,27 @@ static void forget_sums(oven_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined OVEN_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const oven_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     oven_diagnosis *d, const oven_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -822,6 +868,7 @@ void oven_clear(oven_diagnosis *diagnosis)
     diagnosis->fault_class = OVEN_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void oven_diagnosis_reset(oven_diagnosis *diagnosis)
@@ -839,6 +886,40 @@ void oven_diagnosis_reset(oven_diagnosis *diagnosis)
     oven_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const oven_limit *limits, const real *bounds, const oven_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < OVEN_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < OVEN_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(oven_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == OVEN_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = OVEN_BLIND;
+    }
+}
+
 bool oven_diagnose(
     oven_diagnosis *diagnosis,
     const oven_limit *limits,
@@ -853,6 +934,10 @@ bool oven_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -864,13 +949,9 @@ bool oven_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == OVEN_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = OVEN_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == OVEN_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == OVEN_ALARM;
     }
     if (fresh) {

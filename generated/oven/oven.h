@@ -286,6 +286,7 @@ typedef struct oven_diagnosis {
     int16_t fault_class; /* the one that is left, or OVEN_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     oven_real above[OVEN_RESIDUALS];
     oven_real below[OVEN_RESIDUALS];
     oven_real louder[OVEN_RESIDUALS];

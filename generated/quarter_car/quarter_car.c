@@ -4,6 +4,7 @@
 #ifndef QUARTER_CAR_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -586,12 +587,27 @@ static void forget_sums(quarter_car_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined QUARTER_CAR_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const quarter_car_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     quarter_car_diagnosis *d, const quarter_car_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -683,6 +699,7 @@ void quarter_car_clear(quarter_car_diagnosis *diagnosis)
     diagnosis->fault_class = QUARTER_CAR_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void quarter_car_diagnosis_reset(quarter_car_diagnosis *diagnosis)
@@ -700,6 +717,40 @@ void quarter_car_diagnosis_reset(quarter_car_diagnosis *diagnosis)
     quarter_car_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const quarter_car_limit *limits, const real *bounds, const quarter_car_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(quarter_car_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == QUARTER_CAR_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = QUARTER_CAR_BLIND;
+    }
+}
+
 bool quarter_car_diagnose(
     quarter_car_diagnosis *diagnosis,
     const quarter_car_limit *limits,
@@ -714,6 +765,10 @@ bool quarter_car_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -725,13 +780,9 @@ bool quarter_car_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == QUARTER_CAR_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = QUARTER_CAR_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == QUARTER_CAR_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == QUARTER_CAR_ALARM;
     }
     if (fresh) {

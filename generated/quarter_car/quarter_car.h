@@ -271,6 +271,7 @@ typedef struct quarter_car_diagnosis {
     int16_t fault_class; /* the one that is left, or QUARTER_CAR_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     quarter_car_real above[QUARTER_CAR_RESIDUALS];
     quarter_car_real below[QUARTER_CAR_RESIDUALS];
     quarter_car_real louder[QUARTER_CAR_RESIDUALS];

@@ -1,6 +1,7 @@
 /* rc_loop.c: the residuals of RcLoop; generated, see the header. */
 #include "rc_loop.h"
 
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -9,6 +10,11 @@
 typedef rc_loop_real real;
 
 #define REAL(x) RC_LOOP_CONSTANT(x)
+#if defined RC_LOOP_FLOAT && !defined RC_LOOP_REAL
+#define MATH(name) name##f
+#else
+#define MATH(name) name
+#endif
 
 /* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
 static bool finite_number(real value)
@@ -410,12 +416,27 @@ static void forget_sums(rc_loop_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined RC_LOOP_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const rc_loop_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     rc_loop_diagnosis *d, const rc_loop_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -507,6 +528,7 @@ void rc_loop_clear(rc_loop_diagnosis *diagnosis)
     diagnosis->fault_class = RC_LOOP_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void rc_loop_diagnosis_reset(rc_loop_diagnosis *diagnosis)
@@ -524,6 +546,40 @@ void rc_loop_diagnosis_reset(rc_loop_diagnosis *diagnosis)
     rc_loop_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const rc_loop_limit *limits, const real *bounds, const rc_loop_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(rc_loop_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == RC_LOOP_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = RC_LOOP_BLIND;
+    }
+}
+
 bool rc_loop_diagnose(
     rc_loop_diagnosis *diagnosis,
     const rc_loop_limit *limits,
@@ -538,6 +594,10 @@ bool rc_loop_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -549,13 +609,9 @@ bool rc_loop_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == RC_LOOP_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = RC_LOOP_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == RC_LOOP_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == RC_LOOP_ALARM;
     }
     if (fresh) {

@@ -218,6 +218,7 @@ typedef struct rc_loop_diagnosis {
     int16_t fault_class; /* the one that is left, or RC_LOOP_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     rc_loop_real above[RC_LOOP_RESIDUALS];
     rc_loop_real below[RC_LOOP_RESIDUALS];
     rc_loop_real louder[RC_LOOP_RESIDUALS];

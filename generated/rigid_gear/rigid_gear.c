@@ -4,6 +4,7 @@
 #ifndef RIGID_GEAR_NO_THRESHOLDS
 #include <math.h>
 #endif
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -592,12 +593,27 @@ static void forget_sums(rigid_gear_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined RIGID_GEAR_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const rigid_gear_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     rigid_gear_diagnosis *d, const rigid_gear_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -689,6 +705,7 @@ void rigid_gear_clear(rigid_gear_diagnosis *diagnosis)
     diagnosis->fault_class = RIGID_GEAR_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void rigid_gear_diagnosis_reset(rigid_gear_diagnosis *diagnosis)
@@ -706,6 +723,40 @@ void rigid_gear_diagnosis_reset(rigid_gear_diagnosis *diagnosis)
     rigid_gear_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const rigid_gear_limit *limits, const real *bounds, const rigid_gear_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(rigid_gear_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == RIGID_GEAR_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = RIGID_GEAR_BLIND;
+    }
+}
+
 bool rigid_gear_diagnose(
     rigid_gear_diagnosis *diagnosis,
     const rigid_gear_limit *limits,
@@ -720,6 +771,10 @@ bool rigid_gear_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -731,13 +786,9 @@ bool rigid_gear_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == RIGID_GEAR_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = RIGID_GEAR_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == RIGID_GEAR_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == RIGID_GEAR_ALARM;
     }
     if (fresh) {

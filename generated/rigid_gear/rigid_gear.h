@@ -273,6 +273,7 @@ typedef struct rigid_gear_diagnosis {
     int16_t fault_class; /* the one that is left, or RIGID_GEAR_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     rigid_gear_real above[RIGID_GEAR_RESIDUALS];
     rigid_gear_real below[RIGID_GEAR_RESIDUALS];
     rigid_gear_real louder[RIGID_GEAR_RESIDUALS];

@@ -2,6 +2,7 @@
 #include "slider_crank.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -101,32 +102,14 @@ const slider_crank_coefficients slider_crank_nominal_coefficients = {
     462u                           /* the longest of these */
 };
 
-/* The coefficients, from the parameters. */
-static void compute_coefficients(slider_crank_coefficients *c, const slider_crank_parameters *p,
-        real sample_time, real bandwidth)
+/* r1: coefficients */
+static void compute_r1(slider_crank_coefficients *c, const slider_crank_parameters *p,
+        real sample_time, real turn)
 {
-    /* bandwidth*sample_time */
-    const real x_ = bandwidth * sample_time;
-
-    /* of a stage: what is left of its memory */
-    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
-
-    /* w*sample_time, x or 2 */
-    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
-
     /* w of the filter 1/(1 + D/w) */
     const real w = turn / sample_time;
 
-    /* slider_crank.bg:18: r^2 */
-    c->r = p->r * p->r;
-
-    /* l^2 */
-    c->l = p->l * p->l;
-
-    /* r */
-    c->r_2 = p->r;
-
-    /* r1: factor of speed: f */
+    /* slider_crank.bg:18: r1: factor of speed: f */
     c->r1_speed = p->f;
 
     /* r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed))/sqrt(l^2 -
@@ -145,9 +128,6 @@ static void compute_coefficients(slider_crank_coefficients *c, const slider_cran
      * r^2*sin(Int(speed))^2) + 1)): m*r^2 */
     c->r1_product_1_2 = p->m * p->r * p->r;
 
-    /* sample_time/24 */
-    c->scaled_sample_time = sample_time / REAL(24.0);
-
     /* r1: factor of speed' */
     c->r1_w1_speed = p->J * w;
 
@@ -158,7 +138,11 @@ static void compute_coefficients(slider_crank_coefficients *c, const slider_cran
     /* r1: factor of D(speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 -
      * r^2*sin(Int(speed))^2) + 1)) */
     c->r1_w1_product_2 = p->m * p->r * p->r * w;
+}
 
+/* filter: coefficients */
+static void compute_filter(slider_crank_coefficients *c, real pole, real turn)
+{
     /* filter: 1 * (w*sample_time)^2/12 */
     c->bend1 = turn * turn / REAL(12.0);
 
@@ -167,6 +151,35 @@ static void compute_coefficients(slider_crank_coefficients *c, const slider_cran
 
     /* filter: weight of a sample, new and a sample later */
     c->b = REAL(0.5) * (REAL(1.0) - pole);
+}
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(slider_crank_coefficients *c, const slider_crank_parameters *p,
+        real sample_time, real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* slider_crank.bg:18: r^2 */
+    c->r = p->r * p->r;
+
+    /* l^2 */
+    c->l = p->l * p->l;
+
+    /* r */
+    c->r_2 = p->r;
+
+    /* sample_time/24 */
+    c->scaled_sample_time = sample_time / REAL(24.0);
+
+    compute_r1(c, p, sample_time, turn);
+    compute_filter(c, pole, turn);
 }
 
 static bool coefficients_are_finite(const slider_crank_coefficients *c)
@@ -202,35 +215,10 @@ slider_crank_status slider_crank_configure(
     return SLIDER_CRANK_OK;
 }
 
-/* r1 on one sample.
- * slider_crank.bg:18: r1 = T - f*speed - J*D(speed) - r*sin(Int(speed))*x1*(load +
- * c*r*speed*sin(Int(speed))*x1 + m*r*D(speed*sin(Int(speed))*x1))
- * where x1 = r*cos(Int(speed))/sqrt(l^2 - r^2*sin(Int(speed))^2) + 1 */
-static void run_r1(
-    const slider_crank_coefficients *c, slider_crank_memory *x, const slider_crank_samples *s, real *r)
+/* terms of order 0; degree 1 */
+static void run_r1_g0_to_d1(const slider_crank_coefficients *c, slider_crank_memory *x,
+        const slider_crank_samples *s, real rate, real *g0_out, real *d1_out)
 {
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-
-    if (first) {
-        /* nothing is remembered yet */
-        x->r1_s2 = REAL(0.0);
-        x->r1_s1 = REAL(0.0);
-    }
-
-    /* a stage of the filter; on the first sample it is at rest */
-    const real a = first ? -c->b : c->a;
-    const real b = first ? REAL(1.0) : c->b;
-
-    /* sample_time/24 times speed, what is integrated */
-    const real rate = c->scaled_sample_time * s->speed;
-
-    if (first) {
-        /* r1: the integral is 0 at the start */
-        x->r1_q = -REAL(12.0) * rate;
-        x->r1_rate1 = rate;
-        x->r1_rate2 = rate;
-    }
-
     /* its integral since the start, by the rule of Adams */
     const real integral = x->r1_q + REAL(9.0) * rate + REAL(4.0) * x->r1_rate1 - x->r1_rate2;
     x->r1_q = x->r1_q + REAL(24.0) * rate;
@@ -279,6 +267,44 @@ static void run_r1(
     /* degree 1 */
     const real d1 = c->r1_w1_speed * s->speed + c->r1_w1_product * product_2
         + c->r1_w1_product_2 * product_5;
+
+    *g0_out = g0;
+    *d1_out = d1;
+}
+
+/* r1 on one sample.
+ * slider_crank.bg:18: r1 = T - f*speed - J*D(speed) - r*sin(Int(speed))*x1*(load +
+ * c*r*speed*sin(Int(speed))*x1 + m*r*D(speed*sin(Int(speed))*x1))
+ * where x1 = r*cos(Int(speed))/sqrt(l^2 - r^2*sin(Int(speed))^2) + 1 */
+static void run_r1(
+    const slider_crank_coefficients *c, slider_crank_memory *x, const slider_crank_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_s2 = REAL(0.0);
+        x->r1_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* sample_time/24 times speed, what is integrated */
+    const real rate = c->scaled_sample_time * s->speed;
+
+    if (first) {
+        /* r1: the integral is 0 at the start */
+        x->r1_q = -REAL(12.0) * rate;
+        x->r1_rate1 = rate;
+        x->r1_rate2 = rate;
+    }
+
+    real g0;
+    real d1;
+
+    run_r1_g0_to_d1(c, x, s, rate, &g0, &d1);
 
     /* error of order 0 */
     const real e0 = c->bend1 * g0;
@@ -467,6 +493,46 @@ slider_crank_status slider_crank_threshold_configure(
     return SLIDER_CRANK_OK;
 }
 
+/* what the tolerance of f can do */
+static real bound_r1_w1(const slider_crank_threshold_coefficients *c,
+        slider_crank_threshold_memory *x, const slider_crank_samples *s, real w1_a, real w1_b)
+{
+    /* r1_w1: stage 2 */
+    const real w1_u2 = -c->r1_w1_speed * s->speed;
+    const real w1_y2 = x->r1_w1_s2 + w1_b * w1_u2;
+    x->r1_w1_s2 = w1_a * w1_y2 + w1_b * w1_u2;
+
+    /* r1_w1: stage 1 */
+    const real w1_u1 = w1_y2;
+    const real w1_y1 = x->r1_w1_s1 + w1_b * w1_u1;
+    x->r1_w1_s1 = w1_a * w1_y1 + w1_b * w1_u1;
+
+    /* what the tolerance of f can do */
+    const real w1 = w1_y1;
+
+    return w1;
+}
+
+/* its integral since the start, by the rule of Adams */
+static real bound_r1_w2_integral(slider_crank_threshold_memory *x, bool first, real w2_rate)
+{
+    if (first) {
+        /* r1_w2: the integral is 0 at the start */
+        x->r1_w2_q = -REAL(12.0) * w2_rate;
+        x->r1_w2_rate1 = w2_rate;
+        x->r1_w2_rate2 = w2_rate;
+    }
+
+    /* r1_w2: its integral since the start, by the rule of Adams */
+    const real w2_integral = x->r1_w2_q + REAL(9.0) * w2_rate + REAL(4.0) * x->r1_w2_rate1
+        - x->r1_w2_rate2;
+    x->r1_w2_q = x->r1_w2_q + REAL(24.0) * w2_rate;
+    x->r1_w2_rate2 = x->r1_w2_rate1;
+    x->r1_w2_rate1 = w2_rate;
+
+    return w2_integral;
+}
+
 /* r1 on one sample.
  * slider_crank.bg:18: r1: how far r1 can be from zero if no parameter is out of tolerance */
 static void bound_r1(
@@ -484,18 +550,7 @@ static void bound_r1(
     const real w1_a = first ? -c->b : c->a;
     const real w1_b = first ? REAL(1.0) : c->b;
 
-    /* r1_w1: stage 2 */
-    const real w1_u2 = -c->r1_w1_speed * s->speed;
-    const real w1_y2 = x->r1_w1_s2 + w1_b * w1_u2;
-    x->r1_w1_s2 = w1_a * w1_y2 + w1_b * w1_u2;
-
-    /* r1_w1: stage 1 */
-    const real w1_u1 = w1_y2;
-    const real w1_y1 = x->r1_w1_s1 + w1_b * w1_u1;
-    x->r1_w1_s1 = w1_a * w1_y1 + w1_b * w1_u1;
-
-    /* what the tolerance of f can do */
-    const real w1 = w1_y1;
+    const real w1 = bound_r1_w1(c, x, s, w1_a, w1_b);
 
     if (first) {
         /* nothing is remembered yet */
@@ -506,19 +561,7 @@ static void bound_r1(
     /* sample_time/24 times speed, what is integrated */
     const real w2_rate = c->scaled_sample_time * s->speed;
 
-    if (first) {
-        /* r1_w2: the integral is 0 at the start */
-        x->r1_w2_q = -REAL(12.0) * w2_rate;
-        x->r1_w2_rate1 = w2_rate;
-        x->r1_w2_rate2 = w2_rate;
-    }
-
-    /* r1_w2: its integral since the start, by the rule of Adams */
-    const real w2_integral = x->r1_w2_q + REAL(9.0) * w2_rate + REAL(4.0) * x->r1_w2_rate1
-        - x->r1_w2_rate2;
-    x->r1_w2_q = x->r1_w2_q + REAL(24.0) * w2_rate;
-    x->r1_w2_rate2 = x->r1_w2_rate1;
-    x->r1_w2_rate1 = w2_rate;
+    const real w2_integral = bound_r1_w2_integral(x, first, w2_rate);
 
     /* sin(Int(speed)) */
     const real w2_sin_x = MATH(sin)(w2_integral);
@@ -697,12 +740,27 @@ static void forget_sums(slider_crank_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined SLIDER_CRANK_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const slider_crank_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     slider_crank_diagnosis *d, const slider_crank_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -794,6 +852,7 @@ void slider_crank_clear(slider_crank_diagnosis *diagnosis)
     diagnosis->fault_class = SLIDER_CRANK_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void slider_crank_diagnosis_reset(slider_crank_diagnosis *diagnosis)
@@ -811,6 +870,40 @@ void slider_crank_diagnosis_reset(slider_crank_diagnosis *diagnosis)
     slider_crank_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const slider_crank_limit *limits, const real *bounds, const slider_crank_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < SLIDER_CRANK_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < SLIDER_CRANK_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(slider_crank_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == SLIDER_CRANK_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = SLIDER_CRANK_BLIND;
+    }
+}
+
 bool slider_crank_diagnose(
     slider_crank_diagnosis *diagnosis,
     const slider_crank_limit *limits,
@@ -825,6 +918,10 @@ bool slider_crank_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -836,13 +933,9 @@ bool slider_crank_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == SLIDER_CRANK_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = SLIDER_CRANK_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == SLIDER_CRANK_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == SLIDER_CRANK_ALARM;
     }
     if (fresh) {

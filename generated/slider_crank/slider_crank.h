@@ -306,6 +306,7 @@ typedef struct slider_crank_diagnosis {
     int16_t fault_class; /* the one that is left, or SLIDER_CRANK_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     slider_crank_real above[SLIDER_CRANK_RESIDUALS];
     slider_crank_real below[SLIDER_CRANK_RESIDUALS];
     slider_crank_real louder[SLIDER_CRANK_RESIDUALS];

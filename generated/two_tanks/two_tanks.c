@@ -2,6 +2,7 @@
 #include "two_tanks.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
 #error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
@@ -663,12 +664,27 @@ static void forget_sums(two_tanks_diagnosis *d, int k)
     d->streak[k] = 0u;
 }
 
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined TWO_TANKS_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const two_tanks_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     two_tanks_diagnosis *d, const two_tanks_limit *limit, int k, real value, real bound, bool row)
 {
     const real off = value - limit->mean;
-    const real out = (off < REAL(0.0) ? -off : off) - bound;
+    const real out = excess(off, bound);
     bool high = false;
 
     if (row) {
@@ -760,6 +776,7 @@ void two_tanks_clear(two_tanks_diagnosis *diagnosis)
     diagnosis->fault_class = TWO_TANKS_UNKNOWN;
     diagnosis->quiet = 0u;
     diagnosis->settled = 0u;
+    diagnosis->calm = false;
 }
 
 void two_tanks_diagnosis_reset(two_tanks_diagnosis *diagnosis)
@@ -777,6 +794,40 @@ void two_tanks_diagnosis_reset(two_tanks_diagnosis *diagnosis)
     two_tanks_clear(diagnosis);
 }
 
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const two_tanks_limit *limits, const real *bounds, const two_tanks_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < TWO_TANKS_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < TWO_TANKS_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(two_tanks_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == TWO_TANKS_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = TWO_TANKS_BLIND;
+    }
+}
+
 bool two_tanks_diagnose(
     two_tanks_diagnosis *diagnosis,
     const two_tanks_limit *limits,
@@ -791,6 +842,10 @@ bool two_tanks_diagnose(
 
     d->tick += 1u;
     row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
     if (row) {
         d->tick = 0u;
     }
@@ -802,13 +857,9 @@ bool two_tanks_diagnose(
 
             fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
         } else {
-            forget_sums(d, k);
-            if (d->state[k] == TWO_TANKS_ALARM) {
-                d->quiet = 0u; /* nobody knows that it is over */
-            } else {
-                d->state[k] = TWO_TANKS_BLIND;
-            }
+            blind(d, k);
         }
+        d->calm = d->calm && d->state[k] == TWO_TANKS_HEALTHY && d->streak[k] == 0u;
         alarm = alarm || d->state[k] == TWO_TANKS_ALARM;
     }
     if (fresh) {

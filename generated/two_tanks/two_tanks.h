@@ -278,6 +278,7 @@ typedef struct two_tanks_diagnosis {
     int16_t fault_class; /* the one that is left, or TWO_TANKS_UNKNOWN */
 
     /* its own */
+    bool calm; /* all have a value, none is in alarm or was out: only comparisons are needed */
     two_tanks_real above[TWO_TANKS_RESIDUALS];
     two_tanks_real below[TWO_TANKS_RESIDUALS];
     two_tanks_real louder[TWO_TANKS_RESIDUALS];

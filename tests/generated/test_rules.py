@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -12,8 +13,10 @@ import bondgraph
 from bondgraph.backends.deviations import LONGEST, deviations, long_functions
 from bondgraph.backends.emit import emit
 from bondgraph.backends.write import write
+from bondgraph.ir.artifact import Artifact
 from tests.unit.backends import programs
 from tests.unit.backends.compilers import run
+from tests.unit.backends.fixed_models import RANGES
 
 _ROOT = Path(__file__).parents[2]
 #: A model, and programs that need the helpers there are: tables, counts, exponents.
@@ -133,3 +136,34 @@ def _functions(text: str) -> list[tuple[str, list[str]]]:
 def test_a_long_function_is_found() -> None:
     text = "static int f(int x)\n{\n" + "    x = 1;\n" * 61 + "}\n\nint g(void)\n{\n    f(1);\n}\n"
     assert list(long_functions({"a.c": text})) == [("a.c", "f", 61)]
+
+
+def test_no_generated_function_is_long() -> None:
+    """Of all models that are shipped, with thresholds and `diagnose`: the longest has one page."""
+    lengths = {
+        (path.name, name): len(body)
+        for path in (_ROOT / "generated").rglob("*.[ch]")
+        for name, body in _functions(path.read_text(encoding="utf-8"))
+    }
+    assert len(lengths) > 500
+    assert max(lengths.values()) <= LONGEST, max(lengths, key=lengths.__getitem__)
+
+
+@pytest.mark.parametrize(
+    ("path", "options", "name"),
+    [
+        ("tests/adversary/models/induction.bg", {}, "run_r2"),
+        ("models/khepera.bg", {"form": "observer"}, "run_r5"),
+        ("models/khepera.bg", {"form": "observer", "real": "fixed"}, "run_r5"),
+    ],
+)
+def test_long_procedures_are_cut(path: str, options: dict[str, Any], name: str) -> None:
+    """What would be longest, in each way of writing it; exact residuals, too."""
+    ranges = {"ranges": RANGES["khepera"]} if options.get("real") else {}
+    c = bondgraph.compile(_ROOT / path, targets=("c",), **options, **ranges)
+    extras = () if ranges else ("exact", "tests", "example")
+    texts = [file.text for file in c.with_options(extras=extras).artifacts
+             if isinstance(file, Artifact) and file.path.endswith((".c", ".h"))]  # fmt: skip
+    found = [one for text in texts for one in _functions(text)]
+    assert any(called.startswith(f"{name}_") for called, _ in found)
+    assert [(called, len(body)) for called, body in found if len(body) > LONGEST] == []

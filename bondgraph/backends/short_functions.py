@@ -1,0 +1,272 @@
+"""Where a run of statements that is too long for one function is cut into several that are not.
+
+A piece is a stretch of the run, so that nothing changes its order. It takes values that were
+computed before it, and gives back those that are read after it: the fewer, the better the cut. It
+does not begin or end in the midst of what one comment is about, rather where another part of a
+residual begins (`key`), and best where one value leaves. Which pieces are best together is found by
+dynamic programming; where the calls alone are too many lines they are cut in turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby, takewhile
+from math import inf
+
+from bondgraph.text.tuples import NamedTuple
+
+_NONE = frozenset[str]()
+_SHORTEST = 7  # lines that are worth a function
+_LINE = 0.15  # what a line costs that is left
+_MOST_TAKEN, _MOST_GIVEN = 12, 8  # values
+_PRICE = 8.0  # of a function, in values that are handed over; a whole part has none
+_SAME_KEY, _OTHER_KEY = 4.0, 6.0  # what cuts in between cost
+_EACH_GIVEN = 4.0  # after the first, which is returned
+_NOTHING_GIVEN = 6.0  # and it is no part that has a name
+
+
+class Step(NamedTuple):
+    """A statement: the local values it `gives` and `takes`, the lines it needs."""
+
+    gives: tuple[str, ...]
+    takes: frozenset[str]
+    key: str
+    comment: str
+    lines: int
+
+
+class Piece(NamedTuple):
+    """A function: statements by number, and functions that it calls."""
+
+    members: tuple[int | Piece, ...]
+    takes: tuple[str, ...]
+    gives: tuple[str, ...]
+
+    def numbers(self) -> Iterator[int]:
+        """Its statements, with those of what it calls."""
+        for member in self.members:
+            yield from (member,) if isinstance(member, int) else member.numbers()
+
+
+class _Way(NamedTuple):
+    """How a stretch to the end begins: what all its cuts cost, the first one, what is left then."""
+
+    cost: float
+    cut: _Cut | None
+    left: int
+
+
+class _Cut(NamedTuple):
+    start: int
+    end: int
+    cost: float
+    call: int
+    takes: tuple[str, ...]
+    gives: tuple[str, ...]
+
+
+def pieces(steps: Sequence[Step], room: int, most: int) -> tuple[int | Piece, ...]:
+    """The members of a function with `room` lines, which calls others with at most `most`.
+
+    What cannot be cut stays too long.
+
+    >>> reads = ["a", "b", "c", "d", "e", "d e"]
+    >>> steps = [Step((x,), frozenset(y.split()), "", x, 3) for x, y in zip("bcdefg", reads)]
+    >>> pieces(steps, 13, 20)
+    (Piece(members=(0, 1, 2), takes=('a',), gives=('d',)), 3, 4, 5)
+    """
+    return _cut(list(range(len(steps))), list(steps), room, most)
+
+
+def parts(
+    steps: Sequence[Step], room: int, most: int, depth: int = 1, after: frozenset[str] = _NONE
+) -> tuple[int | Piece, ...]:
+    """The same where each part is a function, down to parts of parts, if it is as long as one.
+
+    Where that does not suffice the rest is cut anywhere. The values `after` are read later.
+
+    >>> keys = ["", *["a"] * 4, *["b_1"] * 3, *["b_2"] * 3]
+    >>> steps = [Step((), frozenset(), key, str(k), 3) for k, key in enumerate(keys)]
+    >>> [m if isinstance(m, int) else m.members for m in parts(steps, 9, 20)]
+    [0, (1, 2, 3, 4), (5, 6, 7, 8, 9, 10)]
+    """
+    members: list[int | Piece] = []
+    left: list[Step] = []
+    for key, run in groupby(range(len(steps)), lambda at: steps[at].key.split("_")[:depth]):
+        numbers = list(run)
+        own = [steps[k] for k in numbers]
+        lines, whole = sum(step.lines for step in own), len(key) == depth and key != [""]
+        if not whole or lines < _SHORTEST:
+            members += numbers
+            left += own
+            continue
+        takes, gives = _handed(steps, numbers[0], numbers[-1] + 1, after)
+        inside: Iterable[int | Piece] = range(len(own))
+        if lines > most:
+            inside = parts(own, most, most, depth + 1, frozenset(gives))
+        members.append(Piece(tuple(_moved(inside, numbers[0])), takes, gives))
+        left.append(_called(own, takes, gives))
+    return _cut(members, left, room, most, after)
+
+
+def _moved(members: Iterable[int | Piece], by: int) -> Iterator[int | Piece]:
+    """Members of a stretch by the numbers of the whole."""
+    for member in members:
+        if isinstance(member, int):
+            yield member + by
+        else:
+            yield member._replace(members=tuple(_moved(member.members, by)))
+
+
+def _cut(
+    members: list[int | Piece],
+    steps: list[Step],
+    room: int,
+    most: int,
+    after: frozenset[str] = _NONE,
+) -> tuple[int | Piece, ...]:
+    while sum(step.lines for step in steps) > room:
+        cuts = list(_chosen(steps, room, most, after))
+        if not cuts:
+            break
+        for start, end, _, _, takes, gives in reversed(cuts):
+            members[start:end] = [Piece(tuple(members[start:end]), takes, gives)]
+            steps[start:end] = [_called(steps[start:end], takes, gives)]
+    return tuple(members)
+
+
+def _called(steps: Sequence[Step], takes: tuple[str, ...], gives: tuple[str, ...]) -> Step:
+    """The call of a function with these statements as a statement."""
+    key = together(step.key for step in steps if step.key)
+    return Step(gives, frozenset(takes), key, "", _call(takes, gives))
+
+
+def _handed(
+    steps: Sequence[Step], start: int, end: int, after: frozenset[str]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """What a stretch takes and gives, in the order in which it is computed."""
+    inside = {v for step in steps[start:end] for v in step.gives}
+    taken = {v for step in steps[start:end] for v in step.takes} - inside
+    read = after.union(*(step.takes for step in steps[end:]))
+    before = [v for step in steps[:start] for v in step.gives]
+    outside = sorted(taken - {*before})  # of a function around it
+    return (
+        (*outside, *(v for v in before if v in taken)),
+        tuple(v for step in steps[start:end] for v in step.gives if v in read),
+    )
+
+
+def together(keys: Iterable[str]) -> str:
+    """What several keys are parts of, in words.
+
+    >>> together(["r1_w1", "r1_w2"]), together(["r1_w1"]), together(["r1", "filter"])
+    ('r1', 'r1_w1', '')
+    """
+    words = [key.split("_") for key in dict.fromkeys(keys)]
+    same = zip(*words, strict=False)
+    return "_".join(column[0] for column in takewhile(lambda own: len({*own}) == 1, same))
+
+
+def _call(takes: Sequence[str], gives: Sequence[str]) -> int:
+    """The lines of a call, with those that declare what it gives if it is more than one value."""
+    letters = 40 + sum(len(v) + 2 for v in (*takes, *gives))
+    return 1 + letters // 90 + (len(gives) + 2 if len(gives) > 1 else 0)
+
+
+def _chosen(
+    steps: Sequence[Step], room: int, most: int, after: frozenset[str]
+) -> Iterator[_Cut]:
+    """The cheapest cuts that leave no more lines than there is room for, or else the fewest lines.
+
+    From the end: for each number of lines that are left the cheapest way to get there.
+    """
+    count = len(steps)
+    starts: list[list[_Cut]] = [[] for _ in steps]
+    for cut in _cuts(steps, most, after):
+        starts[cut.start].append(cut)
+    ways: list[dict[int, _Way]] = [{} for _ in range(count)] + [{0: _Way(0.0, None, 0)}]
+    for at in range(count - 1, -1, -1):
+        lines = steps[at].lines
+        found = {left + lines: _Way(way.cost + _LINE * lines, None, left)
+                 for left, way in ways[at + 1].items()}  # fmt: skip
+        for cut in starts[at]:
+            for left, way in ways[cut.end].items():
+                cost, known = cut.cost + way.cost, found.get(left + cut.call)
+                if known is None or cost < known.cost:
+                    found[left + cut.call] = _Way(cost, cut, left)
+        ways[at] = _worthwhile(found, room)
+    left, at = min(ways[0].items(), key=lambda item: (item[0] > room, item[1].cost))[0], 0
+    while at < count:
+        _, chosen, left = ways[at][left]
+        if chosen is not None:
+            yield chosen
+        at = at + 1 if chosen is None else chosen.end
+
+
+def _worthwhile(ways: Mapping[int, _Way], room: int) -> dict[int, _Way]:
+    """The ways than which no other is cheaper and leaves fewer lines; one that is too long."""
+    found: dict[int, _Way] = {}
+    cheapest = inf
+    for left in sorted(ways):
+        if ways[left].cost < cheapest and (left <= room or not found):
+            found[left] = ways[left]
+            cheapest = ways[left].cost
+    return found
+
+
+def _cuts(steps: Sequence[Step], most: int, after: frozenset[str]) -> Iterator[_Cut]:
+    """All stretches that can be a function, with what each costs."""
+    last: dict[str, int] = {}  # where a value is read for the last time
+    given: dict[str, int] = {}  # where it is computed
+    for at, step in enumerate(steps):
+        last |= dict.fromkeys(step.takes, at)
+        given |= dict.fromkeys(step.gives, at)
+    last |= dict.fromkeys(after, len(steps))
+    ends = _ends(steps)
+    for start in sorted(ends):
+        lines, inside, taken = 0, dict[str, None](), set[str]()
+        for end in range(start + 1, len(steps) + 1):
+            step = steps[end - 1]
+            lines += step.lines
+            if lines > most:
+                break
+            taken |= {v for v in step.takes if v not in inside}
+            inside |= dict.fromkeys(step.gives)
+            if end not in ends or lines < _SHORTEST or end - start in (1, len(steps)):
+                continue
+            gives = tuple(v for v in inside if last.get(v, -1) >= end)
+            if len(taken) <= _MOST_TAKEN and len(gives) <= _MOST_GIVEN:
+                takes = tuple(sorted(taken, key=lambda v: (given.get(v, -1), v)))
+                call = _call(takes, gives)
+                if call < lines:
+                    cost = _cost(steps, start, end, len(takes), len(gives))
+                    yield _Cut(start, end, cost, call, takes, gives)
+
+
+def _ends(steps: Sequence[Step]) -> set[int]:
+    """Where a stretch may begin and end: not in the midst of what one comment is about.
+
+    But that is not endless.
+    """
+    found, last = {0, len(steps)}, 0
+    for at in range(1, len(steps)):
+        if not steps[at].comment or steps[at].comment != steps[at - 1].comment or at - last > 9:
+            found.add(at)
+            last = at
+    return found
+
+
+def _cost(steps: Sequence[Step], start: int, end: int, takes: int, gives: int) -> float:
+    keys = {step.key for step in steps[start:end]}
+    around = {steps[at].key for at in (start - 1, end) if 0 <= at < len(steps)}
+    cost = takes + takes**2 / 16.0 + _EACH_GIVEN * max(0, gives - 1)
+    if len(keys) > 1 or keys <= {"", *around}:
+        named = keys - {""}
+        cost += _PRICE + _OTHER_KEY * max(0, len(named) - 1)
+        cost += _NOTHING_GIVEN * (gives == 0 and not named)
+    for at in (start, end):
+        if 0 < at < len(steps):
+            before, after = steps[at - 1], steps[at]
+            if before.key and before.key == after.key:
+                cost += _SAME_KEY
+    return cost
