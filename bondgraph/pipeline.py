@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from functools import cached_property
 from importlib import import_module
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from bondgraph.passes.elimination.state_equations import Wanted
     from bondgraph.passes.lowering.lower import LowerOptions
     from bondgraph.picture import Picture
+    from bondgraph.runtime.diagnosis.accepted_faults import AcceptedFaults
     from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
     from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
     from bondgraph.runtime.diagnosis.parameter_fit import Fitted
@@ -847,6 +849,29 @@ class Compilation:
             if abs(tuning.bandwidth / engine.bandwidth - 1) > 1e-9:
                 raise ValueError(f"it is for a filter of {tuning.bandwidth:g} rad/s")
         return Diagnosis(engine, self.diagnosis_model, tuning)
+
+    def accepting(
+        self, engine: Engine, tuning: Tuning | None = None, after: float = math.inf
+    ) -> AcceptedFaults:
+        """As `diagnosis`, which goes on with a fault once it has been named for `after` seconds.
+
+        Or when it is told to (`accept`), and says the next one then.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> watch = c.accepting(c.engine(native=False))
+        >>> watch.accept(1.0), watch.accepted
+        ([], ())
+        """
+        from bondgraph.runtime.diagnosis.accepted_faults import AcceptedFaults
+        from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
+
+        self.diagnosis(engine, tuning)  # raises what there is to raise
+
+        def made(own: Engine, model: DiagnosisModel) -> Diagnosis:
+            return Diagnosis(own, model, tuning)
+
+        return AcceptedFaults(engine, self.diagnosis_model, made, after)
 
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:

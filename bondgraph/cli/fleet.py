@@ -91,7 +91,8 @@ def _settings(args: Namespace, tuning: Tuning | None) -> WatchSettings:
     signals = setting(*compilation.runnable_programs).signals
     mapping = read_map(args.map, signals) if args.map else None
     operating_of(args, mapping, "log")
-    return WatchSettings(compilation, tuning, form_of(args, ""), mapping, args.operating)
+    form, on = form_of(args, ""), args.operating
+    return WatchSettings(compilation, tuning, form, mapping, on, args.accept)
 
 
 def _found(

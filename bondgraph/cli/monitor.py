@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 
 FAULT = 3  # the exit status of --fail-on-fault
 
-_COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "invalid": "33", "late": "33",
-            "gap": "33"}  # fmt: skip
+_COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "accepted": "36",
+            "invalid": "33", "late": "33", "gap": "33"}  # fmt: skip
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -65,6 +65,8 @@ def arguments(parser: ArgumentParser) -> None:
         help="serve metrics for Prometheus (default HOST: 127.0.0.1)")  # fmt: skip
     add("--silence", metavar="S", type=seconds,
         help="a live source without a sample for S seconds is told (default: 2)")  # fmt: skip
+    add("--accept", metavar="S", type=seconds,
+        help="go on with a fault that has been named for S seconds, and tell the next")  # fmt: skip
     add("--fail-on-fault", action="store_true", help="exit status 3 if there was an alarm")
     add("-o", "--output", metavar="FILE", help="of a fleet: write a row for each verdict (.csv or"
         " .parquet), and watch only what is not in it")  # fmt: skip
@@ -170,11 +172,11 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     if bandwidth is None and tuning is None:  # with a journal the log may grow
         bandwidth = bandwidth_for(rate, None if args.journal else source.samples())
     compilation = realising(args, rate=rate, bandwidth=bandwidth)
-    engine, decided = watching(compilation, tuning, note)
+    engine, decided = watching(compilation, tuning, note, args.accept)
     mapping = read_map(args.map, engine.signals) if args.map else None
     journal = _journal(args.journal, compilation, source, engine)
     form = form_of(args, source.name)
-    settings = WatchSettings(compilation, tuning, form, mapping, args.operating)
+    settings = WatchSettings(compilation, tuning, form, mapping, args.operating, args.accept)
     alarms = Alarms()
     watched = what_is_watched(compilation, engine)
     parts = settings.parts(source, engine, decided(engine))._replace(

@@ -66,7 +66,7 @@ def report(short: bool) -> None:
         return
     samples = np.nan_to_num(waves(c, 600_000))
     plain = engine.configured(bounds=False)
-    rounds = 3 if short else 9
+    rounds = 1 if short else 9
     own: list[tuple[float, float]] = []
     hand: list[np.ndarray] = []
     with tempfile.TemporaryDirectory() as folder:

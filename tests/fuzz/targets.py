@@ -46,7 +46,7 @@ from tests.fuzz.attempt import Kind
 from tests.fuzz.mutate import BYTES, ENCODING, LANGUAGE, ROOT, corpus
 from tests.unit.runtime.live.rover import SCENARIO, rover
 
-_PARTS = 60_000  # of a model, names and statements; three million are the limit
+_PARTS = 5_000  # of a model, names and statements; three million are the limit
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from types import MappingProxyType
 
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
@@ -30,11 +31,12 @@ class Comparison:
         hypotheses: Sequence[Hypothesis],
         nominal: Mapping[str, float],
         tolerated: Sequence[Hypothesis] = (),
+        machine: Mapping[str, float] = MappingProxyType({}),
     ) -> None:
         self._engine = copied(engine)
         self._healthy, self._own = healthy, own
         self._all, self._nominal = tuple(hypotheses), nominal
-        self._tolerated = tuple(tolerated)
+        self._tolerated, self._machine = tuple(tolerated), machine
         self._rows: list[tuple[Row, Array]] = []  # with the noise of each residual
         self._asked: set[int] = set()  # rows with which it was asked how well faults explain them
         self._faults: frozenset[str] = frozenset()  # that were asked for
@@ -72,7 +74,9 @@ class Comparison:
     def _replayed(self, history: History, faults: frozenset[str]) -> SinceOnset:
         """The rows so far beside these faults, asked for as often as it was."""
         own = [h for h in self._all if h.fault in faults]
-        beside = SinceOnset(self._engine, self._healthy, own, self._nominal, self._tolerated)
+        beside = SinceOnset(
+            self._engine, self._healthy, own, self._nominal, self._tolerated, self._machine
+        )
         for number, (row, sigma) in enumerate(self._rows, 1):
             beside.step(row, sigma)
             if number in self._asked and number < self._count:

@@ -14,7 +14,7 @@ from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, slack, tolerated
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
-from bondgraph.runtime.diagnosis.isolation import inverse
+from bondgraph.runtime.diagnosis.isolation import Explained, inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
@@ -25,6 +25,7 @@ from bondgraph.runtime.diagnosis.rows import (
     Row,
     all_of,
     averaged,
+    to_row_ends,
     together,
     usual,
     weight,
@@ -138,13 +139,10 @@ class Diagnosis:
     def _parts(
         self, time: Array, batch: Batch, samples: Array, out: list[Verdict], again: bool = False
     ) -> Iterator[Part]:
-        """Up to the end of each row; rows end at the same times whenever one begins to look."""
-        start = 0
-        while start < len(time):
-            number = round(float(time[start]) / self._engine.sample_time)
-            stop = min(len(time), start + self._every - number % self._every)
-            own = slice(start, stop)
-            self._ends = (number + stop - start) % self._every == 0
+        """Up to the end of each row."""
+        for own in to_row_ends(time, self._engine.sample_time, self._every):
+            number = round(float(time[own.start]) / self._engine.sample_time)
+            self._ends = (number + own.stop - own.start) % self._every == 0
             self._origins.take(time[own], samples[own], self._past, again)
             slopes = self._bank.run(samples[own])
             given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
@@ -155,7 +153,6 @@ class Diagnosis:
             self._status.warm_up(time[own], valid, self._limits[:, 0], self._origins, out)
             bound = np.where(valid, bound + slack(self._tolerated, slopes) + doubt, 0.0)
             yield Part(time[own], samples[own], value, valid, bound, doubt, slopes)
-            start = stop
 
     def _row(self, part: Part, out: list[Verdict]) -> Row | None:
         """Add samples to the row; the row, when it is full."""
@@ -224,7 +221,9 @@ class Diagnosis:
             self._fire(row.time, fresh, [], out)
         if not self._detection.alarmed:
             self._remember(row)
-        elif self._judge.step(row, self._past, self._limits[:, 0], self._tolerated):
+        elif self._judge.step(
+            row, self._past, self._limits[:, 0], self._tolerated, self._history
+        ):
             known = self._judge.best
             if not self._unusual():
                 self._explain(row, out)
@@ -302,7 +301,7 @@ class Diagnosis:
         sigma = self._limits[:, 0]
         if not past:
             none = np.empty((0, len(self._engine.signals)))
-            self._judge.compare(self._before, none, 0, [], sigma, self._tolerated)
+            self._judge.compare(self._before, none, 0, [], sigma, self._tolerated, self._history)
             return time
         engine, piece = (chosen[0].engine, [chosen[0].samples]) if chosen else (self._before, piece)
         last = past[begin]
@@ -318,7 +317,9 @@ class Diagnosis:
             first -= 1
         before = [row.samples for row in past[first : begin + 1]]
         healthy = np.concatenate([*before, samples[:count]])
-        self._judge.compare(past[first].engine, healthy, count, chosen, sigma, self._tolerated)
+        self._judge.compare(
+            past[first].engine, healthy, count, chosen, sigma, self._tolerated, self._history
+        )
         return last.time + count * self._engine.sample_time
 
     def _odd(self, row: Row) -> bool:
@@ -357,6 +358,46 @@ class Diagnosis:
         out.append(Verdict("cleared", row.time, self._judge.latched.since, message=message))
         self._detection.clear()
         self._judge.clear()
+
+    # ----------------------------------------------------------------- acceptance
+
+    @property
+    def unusual(self) -> frozenset[str]:
+        """The signals that are unusual by themselves now."""
+        return frozenset(self._checks.active)
+
+    def wrong(self) -> Explained | None:
+        """The fault that explains all, as it is known by now; None while there is none."""
+        return self._judge.wrong(self._history)
+
+    def succeed(self, other: Diagnosis) -> None:
+        """Take over all that another watch knows of a machine that has an accepted fault less.
+
+        Its alarm is over. What was accepted since is known as it is accepted.
+        """
+        mine, its = self._model.accepted, other._model.accepted
+        anew = {key for key, deviation in mine.items() if its.get(key) != deviation}
+        before = {(h.fault, h.kind): k for k, h in enumerate(other._tolerated)}
+        known = (*self._tolerated, *other._tolerated[other._lasting :])
+        keys = [(h.fault, h.kind) for h in known]
+        keep = [k for k in keys if k in before and k not in anew]
+        more = [k for k in keys if k not in keep]
+        priors = [float(self._history.prior[keys.index(k)]) for k in more]
+        gone = [before[k] for k in more if k in before]
+        history = other._history.anew(gone, [before[k] for k in keep], priors)
+        self._history = history.ordered([[*keep, *more].index(k) for k in keys])
+        self._tolerated = known
+        self.restart()
+        self._detection = other._detection
+        self._detection.clear()
+        self._judge.succeed(other._judge)
+        self._origins.resume(other._origins.state(known[self._lasting :]))
+        self._checks.resume({**other._checks.state(), "active": []})
+        if self._learning is not None and other._learning is not None:
+            self._learning.resume(other._limits, other._learning.state())
+        elif other._learning is None:
+            self._learning = None
+        self._limits = other._limits
 
     # ---------------------------------------------------------------- persistence
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signature_matrix import DoubleFaults, ModeSignatures, SignatureMatrix, stuck
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.remembered import Memory, memories
 from bondgraph.runtime.log import Array
@@ -42,7 +44,9 @@ class DiagnosisModel(NamedTuple):
     `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
     does not tell apart; `memories` are what residuals keep of their first sample; `natures` by
     residual; `deliveries` are the faults that are what a controller gives beyond its command;
-    `switches` that may be stuck, by the name of the fault. `doubles` tells which two faults at once
+    `switches` that may be stuck, by the name of the fault. `accepted` are faults that the machine
+    is known to have, with the kind of their hypothesis and the deviation of what is known: what is
+    nominal is so with them. `doubles` tells which two faults at once
     could look like a third one, when it is asked.
     """
 
@@ -56,6 +60,7 @@ class DiagnosisModel(NamedTuple):
     deliveries: frozenset[str]
     switches: Mapping[str, Stuck]
     doubles: Callable[[], DoubleFaults]
+    accepted: Mapping[tuple[str, str], float] = MappingProxyType({})
 
     @property
     def nominal(self) -> dict[str, float]:
@@ -176,11 +181,13 @@ def tolerated(
     """What may be off for ever while all is well, and by how much (standard deviations).
 
     Parameters within their tolerances, and encoders by one count: where within a count an encoder
-    stands when it begins to count, nobody knows.
+    stands when it begins to count, nobody knows. What was accepted by what its estimate may be off.
     """
     found, most = [], []
     for one in known:
-        if one.kind == "value" and model.tolerances.get(one.fault):
+        if (one.fault, one.kind) in model.accepted:
+            most.append(math.sqrt(3.0) * model.accepted[one.fault, one.kind])
+        elif one.kind == "value" and model.tolerances.get(one.fault):
             most.append(model.tolerances[one.fault] * abs(model.faults[one.fault] or 0.0))
         elif one.kind == "offset" and one.unit == COUNT:
             most.append(_COUNT)
@@ -189,6 +196,19 @@ def tolerated(
         found.append(one)
     keep = [k for k, size in enumerate(most) if size > 0]
     return tuple(found[k] for k in keep), np.array([most[k] for k in keep]) / math.sqrt(3.0)
+
+
+def as_it_is(
+    known: Sequence[Hypothesis], nominal: Mapping[str, float], history: History
+) -> dict[str, float]:
+    """The values that tolerated parameters of this machine have most probably, by healthy rows.
+
+    Within their tolerances. What healthy rows do not tell is as it is declared.
+    """
+    most = math.sqrt(3.0) * history.prior
+    off = np.clip(history.fit(), -most, most).tolist()
+    return {h.fault: nominal[h.fault] - d
+            for h, d in zip(known, off, strict=True) if h.kind == "value"}  # fmt: skip
 
 
 def slack(known: Sequence[Hypothesis], slopes: Array) -> Array:

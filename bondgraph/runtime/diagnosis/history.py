@@ -54,6 +54,12 @@ class History:
         found.root[: len(left), -1] = left[:, -1]
         return found
 
+    def ordered(self, order: Sequence[int]) -> History:
+        """The same with the parameters in another order."""
+        found = History(self.prior[list(order)])
+        found.root = self.root[:, [*order, -1]]
+        return found
+
     def narrow(self, deviations: Array) -> None:
         """Take the last parameters for known so well before, around what they are taken for."""
         start = len(self.prior) - len(deviations)

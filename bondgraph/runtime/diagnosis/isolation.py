@@ -3,10 +3,10 @@
 Residuals are r(t) = sum_k s_k(t) d_k + s_j(t) c_j(t) + noise, with the sensitivities s through the
 same filter. The d are what parameters are off by within their tolerances, constant and normal with
 the deviation of their tolerance; the change c of candidate j stays as it is, or is a signal that
-moves little from one moment to the next. With both integrated out (Gaussian evidence; MacKay,
-1992), candidates are compared by how probable they make what was seen. A residual that a fault
-would have to move and that did not speaks against it by as much as it would have moved, and no
-more.
+moves little from one moment to the next, in straight lines between these (a linear spline). With
+both integrated out (Gaussian evidence; MacKay, 1992), candidates are compared by how probable they
+make what was seen. A residual that a fault would have to move and that did not speaks against it by
+as much as it would have moved, and no more.
 """
 
 from __future__ import annotations
@@ -20,14 +20,15 @@ import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.history import History, triangle
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.model_error import SHARE, shares, whitened
 from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
 #: Of the usual change: how large a fault is, nobody knows. Close together, so that no fault is
 #: better off than another for being just as large as one of them.
 _SCALES = tuple(10.0 ** (k / 4.0) for k in range(-16, 9))
-_KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
-_CHUNK = 4  # rows in which the change is taken as constant, at least
+_KEEP = 0.95  # correlation of a fault's change between the ends of a chunk
+_CHUNK = 4  # rows in which the change is taken as a straight line, at least
 _PARTS = 15  # chunks at most
 _LEADS = 8  # faults of which pairs with every other one are looked at
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
@@ -99,8 +100,7 @@ def explain(
     known, seen = _compared_with(rows, hypotheses, history)
     values = max(1, int((rows.weight > 0).sum()))
     told = {k: _seen(other, history.prior, np.zeros(0)) for k, other in others.items()}
-    if not all(np.isfinite(table).all() for table in told.values()):
-        raise np.linalg.LinAlgError("a residual or a weight is not finite")
+    _finite(*told.values())
     ways: dict[str, list[int]] = {}
     for j, hypothesis in enumerate(hypotheses):
         ways.setdefault(hypothesis.fault, []).append(j)
@@ -147,26 +147,52 @@ def _compared_with(
     rows: Rows, hypotheses: Sequence[Hypothesis], history: History
 ) -> tuple[Array, Array]:
     """What is known of the healthy machine, and what was seen; raises as `explain` does."""
+    _finite(*rows)
     seen = _seen(rows, history.prior, np.array([h.usual for h in hypotheses]))
-    known = history.known()
-    if not (np.isfinite(seen).all() and np.isfinite(known).all()):
-        raise np.linalg.LinAlgError("a residual, a slope or a weight is not finite")
+    known = _with_errors(history.known(), rows.value.shape[1])
+    _finite(known)  # products of finite numbers may be too large for one
+    _finite(seen)
     return known, seen
+
+
+def _finite(*tables: Array) -> None:
+    """Raises numpy.linalg.LinAlgError where a number is none."""
+    if not all(np.isfinite(table).all() for table in tables):
+        raise np.linalg.LinAlgError("a residual, a slope or a weight is not finite")
+
+
+def _with_errors(known: Array, residuals: int) -> Array:
+    """The same with an error of each residual that stays, of which nothing is known."""
+    count = len(known)
+    found = np.zeros((count + residuals, count + residuals + 1))
+    found[:count, :count], found[:count, -1] = known[:, :-1], known[:, -1]
+    found[count:, count:-1] = np.eye(residuals)
+    return found
 
 
 def _seen(rows: Rows, prior: Array, usual: Array) -> Array:
     """What was seen and what would move it, in units of noise: (chunks, moments, columns).
 
-    Columns are the parameters with a tolerance, in deviations, the hypotheses, in their usual
-    changes, and the residuals.
+    Columns are the parameters with a tolerance, in deviations, the errors of residuals that stay,
+    the hypotheses, in their usual changes, first as what is left of a change that ends with the
+    chunk and then as one that begins with it, and the residuals. Chunks are full, but the first.
     """
+    count, residuals = rows.value.shape
     noise = np.sqrt(rows.weight)[:, :, None]
     rest = rows.rest.transpose(0, 2, 1) * prior
     slopes = rows.slopes.transpose(0, 2, 1) * usual
-    table = np.concatenate([rest, slopes, rows.value[:, :, None]], axis=2) * noise
-    length = max(_CHUNK, -(-len(table) // _PARTS))
-    more = np.zeros((-len(table) % length, *table.shape[1:]))  # of nothing nothing follows
-    return np.concatenate([table, more]).reshape(-1, length * table.shape[1], table.shape[2])
+    length = max(_CHUNK, -(-count // _PARTS))
+    own = shares(count, length)
+    error = SHARE * rows.value[:, :, None]
+    ever = math.sqrt(own.ever) * error * np.eye(residuals)
+    before = -count % length
+    begun = ((np.arange(before, before + count) % length + 1) / length)[:, None, None]
+    moved = slopes * (1.0 - begun), slopes * begun
+    table = np.concatenate([rest, ever, *moved, rows.value[:, :, None], error], axis=2) * noise
+    more = np.zeros((before, *table.shape[1:]))  # of nothing nothing follows
+    table = np.concatenate([more, table]).reshape(-1, length, *table.shape[1:])
+    white = whitened(table[..., :-1], table[..., -1], own)
+    return white.reshape(len(white), -1, white.shape[-1])
 
 
 class _Fits(NamedTuple):
@@ -219,7 +245,7 @@ class _Unexplained:
     columns once, by orthonormal bases of what they span, in each chunk and then of all chunks
     (Frisch and Waugh, 1933). Of the columns themselves, not of their products: nothing is lost
     where a fault does nearly what a parameter does. What is left of a fault is the same rows in
-    every chunk, each with a column of its own, and those that no parameter reaches.
+    every chunk, with a column for each end of one, and those that no parameter reaches.
     """
 
     def __init__(self, known: Array, seen: Array) -> None:
@@ -235,10 +261,11 @@ class _Unexplained:
         moved = -(shared @ wide).reshape(len(shared), chunks, columns)
         for c in range(chunks):
             moved[rest + c * size :][:size, c] += part[c]
-        steps = np.abs(np.subtract.outer(np.arange(chunks), np.arange(chunks)))
+        steps = np.abs(np.subtract.outer(np.arange(chunks + 1), np.arange(chunks + 1)))
         self._spread = np.linalg.cholesky(_KEEP**steps)
-        self._steady = np.linalg.solve(self._spread, np.ones((chunks, 1)))
-        self._moved = moved[:, :, :-1].transpose(2, 0, 1) @ self._spread
+        self._steady = np.linalg.solve(self._spread, np.ones((chunks + 1, 1)))
+        ending, begun = np.split(moved[:, :, :-1].transpose(2, 0, 1), 2)
+        self._moved = ending @ self._spread[:-1] + begun @ self._spread[1:]
         self._value = moved[:, :, -1].sum(axis=1) - shared @ (shared[:rest].T @ known[:, -1])
         self._value[:rest] += known[:, -1]
 
@@ -256,7 +283,7 @@ class _Unexplained:
             by_size.setdefault(len(own), []).append(tuple(own))
         for size, alike in by_size.items():
             chunks, moments, _ = self._within.shape
-            numbers = (size + 1) * chunks * (moments + size * chunks + len(self._value))
+            numbers = (2 * size + 1) * chunks * (moments + size * chunks + len(self._value))
             at_once = max(1, _AT_ONCE // numbers)
             for start in range(0, len(alike), at_once):
                 some = alike[start : start + at_once]
@@ -271,19 +298,21 @@ class _Unexplained:
     def _left(self, sets: npt.NDArray[np.intp]) -> Array:
         """Triangles of what hypotheses do and of what was seen, (sets, changes + 1, changes + 1).
 
-        The changes of a hypothesis stand beside each other, by chunks.
+        The changes of a hypothesis stand beside each other, by the ends of chunks.
         """
-        (count, size), (_, rows, chunks) = sets.shape, self._moved.shape
-        table = np.zeros((count, rows + chunks * size + 1, size * chunks + 1))
+        (count, size), (every, rows, ends) = sets.shape, self._moved.shape
+        chunks = ends - 1
+        table = np.zeros((count, rows + 2 * size * chunks + 1, size * ends + 1))
         moved = self._moved[sets].transpose(0, 2, 1, 3)
-        table[:, :rows, :-1] = moved.reshape(count, rows, size * chunks)
+        table[:, :rows, :-1] = moved.reshape(count, rows, size * ends)
         table[:, :rows, -1] = self._value
-        every = np.insert(sets, size, -1, axis=1)
-        within = _orthogonal(np.moveaxis(self._within[:, :, every], 2, 0))
-        own = within[:, :, :size, :size, None] * self._spread[:, None, None, :]
-        table[:, rows:-1, :-1] = own.reshape(count, chunks * size, size * chunks)
-        table[:, rows:-1, -1] = within[:, :, :size, size].reshape(count, chunks * size)
-        table[:, -1, -1] = np.linalg.norm(within[:, :, size, size], axis=1)
+        columns = np.concatenate([sets, sets + every, np.full((count, 1), -1)], axis=1)
+        within = _orthogonal(np.moveaxis(self._within[:, :, columns], 2, 0))
+        ending, begun = within[..., :-1, :size, None], within[..., :-1, size:-1, None]
+        own = ending * self._spread[:-1, None, None] + begun * self._spread[1:, None, None]
+        table[:, rows:-1, :-1] = own.reshape(count, 2 * size * chunks, size * ends)
+        table[:, rows:-1, -1] = within[..., :-1, -1].reshape(count, 2 * size * chunks)
+        table[:, -1, -1] = np.linalg.norm(within[..., -1, -1], axis=1)
         return triangle(table)
 
 

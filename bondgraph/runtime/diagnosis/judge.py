@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from bondgraph.runtime.diagnosis.comparison import Comparison
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, as_it_is
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Sizes, hypotheses, sized
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
@@ -82,6 +82,20 @@ class Judge:
             return None
         return self._compared.shows(self._best)
 
+    def wrong(self, history: History) -> Explained | None:
+        """The fault that explains all, as it is known by now."""
+        if self._best is None or self._compared is None:
+            return None
+        try:
+            found = self._compared.explained(history, (self._best.fault,))
+        except np.linalg.LinAlgError:
+            return None
+        return next((one for one in found if one.fault == self._best.fault), None)
+
+    def succeed(self, other: Judge) -> None:
+        """Take over what another one has learned of signals."""
+        self._sizes = other._sizes
+
     def learn(self, samples: Array) -> None:
         """Further (n, signals) samples, one after the other."""
         self._sizes.add(samples)
@@ -108,6 +122,7 @@ class Judge:
         rows: Sequence[Row],
         sigma: Array,
         tolerated: Sequence[Hypothesis],
+        history: History,
     ) -> None:
         """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
         model = self._model
@@ -118,16 +133,22 @@ class Judge:
         found = hypotheses(self._engine, model.faults, model.units, sizes, model.switches)
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
         found = sized(engine, found, model.deliveries, model.nominal, samples)
-        self._compared = Comparison(engine, healthy, own, found, model.nominal, tolerated)
+        machine = as_it_is(tolerated, model.nominal, history)
+        self._compared = Comparison(engine, healthy, own, found, model.nominal, tolerated, machine)
         for row in rows:
             self._compared.step(row, sigma)
 
     def step(
-        self, row: Row, past: Sequence[Row], sigma: Array, tolerated: Sequence[Hypothesis]
+        self,
+        row: Row,
+        past: Sequence[Row],
+        sigma: Array,
+        tolerated: Sequence[Hypothesis],
+        history: History,
     ) -> bool:
         """One more row, the last of the `past`; False while there is none to begin with."""
         if self._compared is None:
-            self._begin_again(row, past, sigma, tolerated)
+            self._begin_again(row, past, sigma, tolerated, history)
         if self._compared is None:
             return False
         if not self._compared.has(row):
@@ -136,7 +157,12 @@ class Judge:
         return True
 
     def _begin_again(
-        self, row: Row, past: Sequence[Row], sigma: Array, tolerated: Sequence[Hypothesis]
+        self,
+        row: Row,
+        past: Sequence[Row],
+        sigma: Array,
+        tolerated: Sequence[Hypothesis],
+        history: History,
     ) -> None:
         """After a restart: compare faults from the onset on, or from where there are residuals."""
         assert self.latched is not None
@@ -148,7 +174,8 @@ class Judge:
         first, samples = rows[0], len(rows[0].samples)
         ago = math.ceil((first.time - since) / self._engine.sample_time)
         healthy = 0 if anew or ago >= samples else samples - max(1, ago)
-        self.compare(first.engine, first.samples[:healthy], healthy, rows, sigma, tolerated)
+        before = first.samples[:healthy]
+        self.compare(first.engine, before, healthy, rows, sigma, tolerated, history)
 
     def verdict(
         self, time: float, levels: Mapping[str, float], noise: Mapping[str, float], history: History

@@ -253,7 +253,7 @@ def update(
     chance = probabilities(found)
     shown = sorted((e for e in found if chance[e.fault] >= _SHOWN),
                    key=lambda e: (-chance[e.fault], e.fault))  # fmt: skip
-    candidates = tuple(_candidate(e, chance[e.fault]) for e in shown)
+    candidates = tuple(candidate(e, chance[e.fault]) for e in shown)
     verdict = Verdict("update", time, since, dict(levels), group, candidates)
     if explains(found) and candidates and alone and not pairs:
         message = described(verdict)
@@ -298,7 +298,7 @@ def _best(found: Sequence[Explained]) -> Explained:
     return max(found, key=lambda e: e.evidence)
 
 
-def _candidate(explained: Explained, chance: float) -> Candidate:
+def candidate(explained: Explained, chance: float) -> Candidate:
     """A fault with the change that fits best: of the machine where it has changed."""
     held = explained.hypothesis.held
     if held is not None:  # what acts is nothing of what is told, or the other position

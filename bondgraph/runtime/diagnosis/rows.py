@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -55,6 +55,22 @@ class Row(NamedTuple):
         self.value[self.valid] -= by[self.valid]
         if self.average is not None:
             self.average.value[self.average.valid] -= by[self.average.valid]
+
+
+def to_row_ends(time: Array, sample_time: float, every: int) -> Iterator[slice]:
+    """Samples, by their times (n,), up to the end of each row of so many.
+
+    Rows end at the same times whenever one begins to look.
+
+    >>> list(to_row_ends(np.arange(3, 9) * 0.1, 0.1, 4))
+    [slice(0, 1, None), slice(1, 5, None), slice(5, 6, None)]
+    """
+    start = 0
+    while start < len(time):
+        number = round(float(time[start]) / sample_time)
+        stop = min(len(time), start + every - number % every)
+        yield slice(start, stop)
+        start = stop
 
 
 def averaged(value: Array, valid: Mask, slopes: Array) -> Average:

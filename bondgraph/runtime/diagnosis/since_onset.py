@@ -22,7 +22,7 @@ from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
 
 #: Time constants of the filter, beside delays, that a residual may show late what has happened.
-_SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
+_SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0)
 MOST = 600  # rows that are compared: by then it is known as well as it will be
 _WAIT = 8  # rows that are run at once, unless somebody asks before
 BENT = 80  # rows with whose samples onsets and sizes are looked for, while there are no more
@@ -30,10 +30,10 @@ _ROUNDS = 8  # of looking for them
 _SMALL = 1e-5  # of the usual change: for less a tangent does
 _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
 _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
+_BEHIND = 30.0  # evidence that a fault may lack and still be worth another onset
 _SAME = 0.01  # share by which changes of two rounds may differ
 _STILL = 1e-3  # less than that, and the secant is the same as before
 _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
-_NEARLY = 0.05  # of the residual: what slopes are off by
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
@@ -47,8 +47,9 @@ class SinceOnset:
     one fault now looks like another that began a little earlier: once there is something to go by,
     each fault gets the onset that suits it best. And laws may be bent: where a fault is as large as
     the samples say, its slope is not that of a small one. So each is tried again then with its own
-    size. A switch that is stuck has no size: beside the rows as they were told stand those that it
-    would have made of the same samples. What is `tolerated` is so in both.
+    size. What it does depends on the parameters that this `machine` has, as far as it is known. A
+    switch that is stuck has no size: beside the rows as they were told stand those that it would
+    have made of the same samples. What is `tolerated` is so in both.
     """
 
     def __init__(
@@ -58,12 +59,14 @@ class SinceOnset:
         hypotheses: Sequence[Hypothesis],
         nominal: Mapping[str, float],
         tolerated: Sequence[Hypothesis],
+        machine: Mapping[str, float],
     ) -> None:
         self._engine = copied(engine)
         self._healthy = healthy
         self._all, self._nominal = tuple(hypotheses), nominal
         self._sized = [k for k, h in enumerate(self._all) if h.held is None]
         self._tolerated = tuple(tolerated)
+        self._machine = machine
         shape = len(self._all), len(engine.residuals)
         self._waiting: list[tuple[Row, Array]] = []  # with the noise of each residual
         self._past: list[tuple[Row, Array]] = []
@@ -79,7 +82,7 @@ class SinceOnset:
         #: Healthy samples that come behind the onset, and the change that slopes are secants up to.
         self._tried: dict[int, tuple[int, float | None]] = dict.fromkeys(self._sized, (0, None))
         before, begin = self._onset(0)
-        self._bank = Bank(before, [self._all[k] for k in self._sized], nominal, begin)
+        self._bank = self._banked(before, [self._all[k] for k in self._sized], begin, {})
         self._instead: dict[int, Instead] = {}
         self._try(dict.fromkeys(range(len(self._all)), 0), {})
 
@@ -124,18 +127,18 @@ class SinceOnset:
             found = self._found(history)
             self._known = found if len(self._rows) == MOST else None
             return found
-        if not self._again:
-            self._dated(history)
+        self._dated(history, self._found(history) if self._again else ())
         found = self._found(history)
         self._again = 2 * len(self._rows)
         before: dict[int, tuple[float, float]] = {}
         for _ in range(_ROUNDS):
             wanted, changes = self._bent(found), self._changes()
-            if _alike(wanted, changes):
+            if _alike(wanted, {k: changes[k] for k in wanted if k in changes}):
                 break
             tried = {k: (changes.get(k, 0.0), change) for k, change in wanted.items()}
             earlier = {k: own for k, (own, _) in self._tried.items()}
-            self._try(earlier, {k: self._next(k, before.get(k), tried[k]) for k in wanted})
+            fresh = {k: self._next(k, before.get(k), tried[k]) for k in wanted}
+            self._try(earlier, {**changes, **fresh})
             found, before = self._found(history), tried
         return found
 
@@ -144,14 +147,12 @@ class SinceOnset:
     ) -> tuple[list[Explained], list[ExplainedPair]]:
         """How well each fault explains the rows and how well two at once do, to be compared.
 
-        Two of the `singles`, each with its onset and size. What a fault does is known less well
-        than noise: for its own size and if it stays, and not how it set in. Whether one is enough
-        does not hang on that.
+        Two of the `singles`, each with its onset and size. How a fault sets in is not known:
+        whether one is enough does not hang on that.
         """
         rows, others = self._tables()
         for one in (rows, *others.values()):
-            doubt = np.square(_NEARLY * one.value) + _early(one.value, 1.0)
-            one.weight[:] = 1.0 / (inverse(one.weight) + doubt)
+            one.weight[:] = 1.0 / (inverse(one.weight) + _early(one.value, 1.0))
         alone = explain(rows, self._all, history, others)
         return alone, explain_pairs(rows, self._all, history, singles)
 
@@ -172,20 +173,41 @@ class SinceOnset:
             one.weight[:] = 1.0 / (inverse(one.weight) + early)
         return rows, others
 
-    def _dated(self, history: History) -> None:
-        """Let each fault begin when it makes what was seen most probable."""
+    def _dated(self, history: History, found: Sequence[Explained]) -> None:
+        """Let each fault begin when it makes what was seen most probable.
+
+        At first no onset and no size is known, and later rows tell one from the other. What was
+        `found` by then leaves out the faults that no other onset makes probable.
+        """
+        top = max((one.evidence for one in found), default=0.0)
+        behind = {one.fault for one in found if one.evidence < top - _BEHIND}
         best: dict[str, tuple[float, int]] = {}
         constant = 1.0 / (self._engine.bandwidth * self._engine.sample_time)
         lags = [round(lag / self._engine.sample_time) for lag in self._engine.lags]
-        every = range(len(self._all))
+        every = [k for k, one in enumerate(self._all) if one.fault not in behind]
+        changes = self._changes()
         for earlier in dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS):
             if earlier <= len(self._healthy):
-                self._try(dict.fromkeys(every, earlier), {})
+                self._try(dict.fromkeys(every, earlier), changes)
                 for one in self._found(history):
                     known = best.get(one.fault)
+                    if one.fault in behind:
+                        continue
                     if known is None or one.evidence > known[0]:
                         best[one.fault] = one.evidence, earlier
-        self._try({k: best[self._all[k].fault][1] for k in every}, {})
+        self._try({k: best[self._all[k].fault][1] for k in every}, changes)
+
+    def _banked(
+        self,
+        before: Engine,
+        known: Sequence[Hypothesis],
+        begin: Array | None,
+        bent: Mapping[int, float],
+    ) -> Bank:
+        """A bank of some hypotheses about this machine, with the parameters that it has."""
+        engine = before.configured(self._machine, bounds=False)
+        engine.follow(before)
+        return Bank(engine, known, {**self._nominal, **self._machine}, begin, bent)
 
     def _onset(self, earlier: int) -> tuple[Engine, Array | None]:
         """An engine so many healthy samples before the first row, and the sample before that."""
@@ -227,9 +249,9 @@ class SinceOnset:
         known = [self._all[k] for k in own]
         bent = {at: changes[k] for at, k in enumerate(own) if k in changes}
         try:
-            bank = Bank(before, known, self._nominal, begin, bent)
+            bank = self._banked(before, known, begin, bent)
         except ValueError:  # the model cannot take one of them
-            bent, bank = {}, Bank(before, known, self._nominal, begin)
+            bent, bank = {}, self._banked(before, known, begin, {})
         bank.run(self._healthy[len(self._healthy) - onset :], ())
         self._bank.take(bank, [self._sized.index(k) for k in own])
         self._tried |= {k: (onset, bent.get(at)) for at, k in enumerate(own)}

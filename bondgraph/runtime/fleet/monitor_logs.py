@@ -67,6 +67,7 @@ def monitor(
     unit: str | None = None,
     rate: float | None = None,
     operating: str | None = None,
+    accept: float | None = None,
     jobs: int = 1,
     progress: Callable[[float], None] = lambda _: None,
     tell: Callable[[str], object] = lambda _: None,
@@ -75,11 +76,12 @@ def monitor(
 
     `logs` is a pandas or polars data frame, a dict of columns, a `Log`, a path of a file, folder or
     pattern, a list of any of these, or a dict of them by name. `columns` is a map file or what it
-    says; `time`, `unit`, `rate` and `operating` are as in `bondgraph monitor`: `--time`,
-    `--time-unit`, `--rate`, `--while`. With `jobs` above 1 so many processes watch, or the workers
-    of Dask if `distributed` has a default client. `progress` is told the share that is done, 0 to
-    1, `tell` what a watch notes besides. A log that cannot be watched has an `error`; raises
-    Trouble if that is so for all, CompileError if the model is wrong, ValueError without any log.
+    says; `time`, `unit`, `rate`, `operating` and `accept` are as in `bondgraph monitor`: `--time`,
+    `--time-unit`, `--rate`, `--while`, `--accept`. With `jobs` above 1 so many processes watch, or
+    the workers of Dask if `distributed` has a default client. `progress` is told the share that is
+    done, 0 to 1, `tell` what a watch notes besides. A log that cannot be watched has an `error`;
+    raises Trouble if that is so for all, CompileError if the model is wrong, ValueError without any
+    log.
 
     >>> import bondgraph, numpy
     >>> c = bondgraph.compile("models/dc_motor.bg")
@@ -98,7 +100,7 @@ def monitor(
         mapping = read_map(columns, setting(*compilation.runnable_programs).signals)
     elif columns is not None:
         mapping = dict(columns)
-    settings = WatchSettings(compilation, tuning, form, mapping, operating)
+    settings = WatchSettings(compilation, tuning, form, mapping, operating, accept)
     assert compilation.program  # a wrong model is told before any log is looked at
     items, bad = _items(logs, form, tell)
     if not items and not bad:

@@ -154,7 +154,9 @@ class Watcher:
             compilation = self._settings.compilation.with_options(
                 rate=rate, bandwidth=bandwidth
             )
-            engine, decided = watching(compilation, self._settings.tuning, told.append)
+            engine, decided = watching(
+                compilation, self._settings.tuning, told.append, self._settings.accept
+            )
             settings = self._settings._replace(compilation=compilation)
             found = _Made(settings, engine, decided, told)
             while len(self._made) >= _RATES:
@@ -209,9 +211,9 @@ def _watcher(settings: bytes) -> Watcher:
 
 
 def digest(settings: WatchSettings, version: str) -> str:
-    """By what settings are known again: model, options, tuning, and what is done with columns.
+    """By what settings are known again: model, options, tuning, columns, what is accepted.
 
-    And the `version` of the program that does it.
+    And the `version` of the program.
     """
     c, tuning = settings.compilation, settings.tuning
     return _hash(
@@ -224,6 +226,7 @@ def digest(settings: WatchSettings, version: str) -> str:
         repr(settings.form),
         repr(sorted((settings.mapping or {}).items())),
         settings.operating or "",
+        repr(settings.accept),
     )
 
 

@@ -23,7 +23,7 @@ ALARM, HEALTHY, BLIND, WARMING = "alarm", "healthy", "blind", "warming up"
 STATES = (HEALTHY, ALARM, WARMING, BLIND)
 _HEALTHY, _ALARM, _WARMING, _BLIND = range(4)
 _CODES = np.arange(len(STATES), dtype=np.int8)
-_TOLD = ("fault", "update", "cleared")  # what changes what is latched
+_TOLD = ("fault", "update", "cleared", "accepted")  # what changes what is latched
 
 _SIGNAL = ""  # an alarm of no residual: a signal is unusual by itself
 _PATIENCE = 5.0  # warm-ups after which a residual without a value is not warming up any more
@@ -59,10 +59,10 @@ class Change(NamedTuple):
 class ResidualStates:
     """Follows the states of the residuals of an engine from sample to sample.
 
-    A residual is in `alarm` from when it has fired until that is cleared; else `healthy` while it
-    has a value and a threshold; `blind` while nobody knows its noise, while a signal that it reads
-    has no number, and where it had no value for five warm-ups for another reason; else `warming
-    up`. `samples` counts them, (residuals, states).
+    A residual is in `alarm` from when it has fired until that is cleared or accepted; else
+    `healthy` while it has a value and a threshold; `blind` while nobody knows its noise, while a
+    signal that it reads has no number, and where it had no value for five warm-ups for another
+    reason; else `warming up`. `samples` counts them, (residuals, states).
     """
 
     def __init__(self, engine: Engine) -> None:
@@ -212,7 +212,7 @@ class ResidualStates:
         if verdict.event in ("fault", "update"):
             self._fired = self._fired | frozenset(verdict.residuals or [_SIGNAL])
             self._class = " or ".join(verdict.group) or self._class
-        elif verdict.event == "cleared":
+        elif verdict.event in ("cleared", "accepted"):
             self._fired, self._class = frozenset(), ""
         else:
             return False

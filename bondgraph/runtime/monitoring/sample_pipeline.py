@@ -363,7 +363,7 @@ class Monitor:
     def _keep(self, verdict: Verdict) -> None:
         if verdict.event in ("fault", "update"):
             self._latched = verdict
-        elif verdict.event == "cleared":
+        elif verdict.event in ("cleared", "accepted"):
             self._latched = None
 
     def _commit(self) -> None:

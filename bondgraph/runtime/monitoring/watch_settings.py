@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -70,13 +71,19 @@ class Compiled(Protocol):
     def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Decision:
         """What says verdicts."""
 
+    def accepting(
+        self, engine: Engine, tuning: Tuning | None = None, after: float = math.inf
+    ) -> Decision:
+        """The same, which accepts faults that have been named for `after` seconds."""
+
 
 class WatchSettings(NamedTuple):
     """What a watch has besides its samples.
 
     `form` is what is known of the table of a log, with the rate that somebody asked for; without a
     `tuning` the noise is learned; `mapping` says which column is which signal; while the machine is
-    not `operating`, an expression over columns, samples do not count.
+    not `operating`, an expression over columns, samples do not count. A fault that has been named
+    for so many seconds is `accept`ed, and the watch goes on with that.
     """
 
     compilation: Compiled
@@ -84,6 +91,7 @@ class WatchSettings(NamedTuple):
     form: Form = Form("")
     mapping: Mapping[str, Mapped] | None = None
     operating: str | None = None
+    accept: float | None = None
 
     def parts(self, source: Source, engine: Engine, decision: Decision) -> Parts:
         """What a monitor of the samples of a source is made of; raises CompileError."""
@@ -114,7 +122,10 @@ def sample_rate(
 
 
 def watching(
-    compilation: Compiled, tuning: Tuning | None, tell: Callable[[str], None]
+    compilation: Compiled,
+    tuning: Tuning | None,
+    tell: Callable[[str], None],
+    accept: float | None = None,
 ) -> tuple[Engine, Callable[[Engine], Decision]]:
     """The engine of a watch, and what makes the decision of one.
 
@@ -133,6 +144,8 @@ def watching(
     except ValueError as error:
         message = f"the tuning cannot be used: {error}; make it anew with `bondgraph tune`"
         raise Trouble(message) from error
+    if accept is not None:
+        return engine, lambda own: compilation.accepting(own, tuning, accept)
     return engine, lambda own: compilation.diagnosis(own, tuning)
 
 
