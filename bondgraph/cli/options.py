@@ -123,7 +123,15 @@ def assigned(text: str) -> tuple[str, Amount]:
     return name, value
 
 
-assigned.__name__ = "NAME=VALUE"
+def commanded(text: str) -> tuple[str, Amount | bool]:
+    """As `assigned`; of a boolean input the value may be `true` or `false`."""
+    name, _, word = text.rpartition("=")
+    if name and word in ("true", "false"):
+        return name, word == "true"
+    return assigned(text)
+
+
+assigned.__name__ = commanded.__name__ = "NAME=VALUE"
 
 
 def check_units(graph: BondGraph, given: Iterable[tuple[str, Amount]]) -> None:

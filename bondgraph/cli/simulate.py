@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
-from bondgraph.cli.options import assigned, check_units, model_of, numbered, pace, seconds
+from bondgraph.cli.options import check_units, commanded, model_of, numbered, pace, seconds
 from bondgraph.cli.sweeps import Setting, draw, settings, sweep
 from bondgraph.picture import suffix_of
 from bondgraph.text.diagnostic import Trouble
@@ -48,9 +48,9 @@ def arguments(parser: ArgumentParser) -> None:
                         help="the signals of the picture, separated by commas (default: all that"
                         " the log has)")  # fmt: skip
     numbered(parser)
-    parser.add_argument("--input", metavar="NAME=VALUE", type=assigned, action="append",
-                        default=[], help="a constant input, in SI or with a unit; may be"
-                        " repeated")  # fmt: skip
+    parser.add_argument("--input", metavar="NAME=VALUE", type=commanded, action="append",
+                        default=[], help="a constant input, in SI or with a unit, or true"
+                        " or false; may be repeated")  # fmt: skip
     parser.add_argument("--stream", action="store_true",
                         help="run without an end, and print the samples as lines of CSV while they"
                         " are taken")  # fmt: skip
@@ -175,10 +175,12 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
     named = [name for name, _ in args.set]
     parameters = {**chosen.parameters, **{name: numbers[name] for name in named}}
     modes = dict(chosen.modes)
-    check_units(graph, args.input)
+    check_units(graph, [(n, v) for n, v in args.input if not isinstance(v, bool)])
     for name, value in args.input:
         _known(name, "input", [i.name for i in graph.inputs if not i.of])
         mode = any(i.name == name and i.mode for i in graph.inputs)
+        if isinstance(value, bool) and not mode:
+            raise Trouble(f"`{name}` is a number, not true or false")
         (modes if mode else inputs)[name] = Course.constant(float(value))
     driven = {c.input for c in chosen.controllers} & {name for name, _ in args.input}
     if driven:

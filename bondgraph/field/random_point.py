@@ -3,7 +3,8 @@
 An expression that is not zero vanishes at a random point with a probability of about its degree
 divided by 2**61 (Schwartz, 1980; Zippel, 1979). Symbols, functions and derivatives are numbers that
 have nothing to do with each other, the same wherever they stand for the same; so what holds only by
-an identity of functions is not seen, and the answer can err towards "not zero" alone.
+an identity of functions is not seen, but for sin^2 + cos^2 = 1, and the answer can err towards "not
+zero" alone.
 """
 
 from __future__ import annotations
@@ -26,6 +27,9 @@ class RandomPoint(Evaluated[int]):
     >>> p = Pool(); a, b = p.symbol("a", Kind.PARAM), p.symbol("b", Kind.PARAM)
     >>> RandomPoint(1).value(p.sub(p.scale(2, a), a)) == RandomPoint(1).value(a)
     True
+    >>> sine, cosine = (p.power(p.fn(name, a), 2) for name in ("sin", "cos"))
+    >>> RandomPoint(1).value(p.add((1, sine), (1, cosine)))
+    1
     """
 
     def __init__(self, seed: int, given: Mapping[Expr, Expr] | None = None) -> None:
@@ -57,6 +61,10 @@ class RandomPoint(Evaluated[int]):
 
     def _apart(self, node: Expr, args: list[int]) -> int:
         """What is no sum and no product: the same number for the same arguments."""
+        if node.op is Op.FN and node.name in ("sin", "cos"):
+            half = self._drawn(f"tan of half of {args}")  # -1 has no root: P is 3 modulo 4
+            upper = 2 * half if node.name == "sin" else 1 - half * half
+            return upper * pow(1 + half * half, -1, P) % P
         data = node.root.zero.id if node.op is Op.ROOT else node.data
         return self._drawn(f"{node.op.value}:{data}:{args}")
 

@@ -161,6 +161,25 @@ PLANTS = [
         inputs="ud uq load",
     ),
     Plant(
+        "pmsm_park",
+        model("pmsm_park"),
+        equations=(
+            "ua*cos(p*h) + ub*sin(p*h) - R*x - Ld*D(x) + p*v*Lq*y; "
+            "ub*cos(p*h) - ua*sin(p*h) - R*y - Lq*D(y) - p*v*(Ld*x + psi); "
+            "p*(psi + (Ld - Lq)*x)*y - J*D(v) - b*v - load; D(h) - v"
+        ),
+        sensors={
+            "ia": "x*cos(p*h) - y*sin(p*h)",
+            "ib": "x*sin(p*h) + y*cos(p*h)",
+            "angle": "h",
+        },
+        n_arr=3,
+        params="R Ld Lq psi p J b",
+        inputs="ua ub load",
+        starts={"h": "0.2"},
+        undetectable="",
+    ),
+    Plant(
         "boiler",
         model("boiler"),
         equations=(

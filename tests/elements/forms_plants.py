@@ -239,6 +239,33 @@ FORMS = [
         ],
     ),
     Form(
+        "pmsm_park",
+        "electrical, rotation",
+        PARK,
+        [
+            Relation(
+                "along the magnets",
+                "ua*cos(p*angle) + ub*sin(p*angle) - R*(ia*cos(p*angle) + ib*sin(p*angle)) "
+                "- Ld*D(ia*cos(p*angle) + ib*sin(p*angle), 1) "
+                "+ p*Lq*D(angle, 1)*(ib*cos(p*angle) - ia*sin(p*angle))",
+                "R Ld Lq p ua ub ia ib angle",
+            ),
+            Relation(
+                "across the magnets",
+                "ub*cos(p*angle) - ua*sin(p*angle) - R*(ib*cos(p*angle) - ia*sin(p*angle)) "
+                "- Lq*D(ib*cos(p*angle) - ia*sin(p*angle), 1) "
+                "- p*D(angle, 1)*(Ld*(ia*cos(p*angle) + ib*sin(p*angle)) + psi)",
+                "R Ld Lq psi p ua ub ia ib angle",
+            ),
+            Relation(
+                "torque balance",
+                "p*(psi + (Ld - Lq)*(ia*cos(p*angle) + ib*sin(p*angle)))"
+                "*(ib*cos(p*angle) - ia*sin(p*angle)) - J*D(angle, 2) - b*D(angle, 1) - load",
+                "Ld Lq psi p J b load ia ib angle",
+            ),
+        ],
+    ),
+    Form(
         "boiler",
         "thermofluid",
         TANK,

@@ -202,6 +202,7 @@ ROWS = [
     Row("Machines", "Cuk's converter by its duty cycle", "electrical", "cuk", "", *FAST),
     Row("Machines", "motor on an H bridge", "electrical, rotation", "h_bridge"),
     Row("Machines", "synchronous motor with magnets", "electrical, rotation", "pmsm"),
+    Row("Machines", "the same in the frame of its stator", "electrical, rotation", "pmsm_park"),
     Row("Machines", "induction motor, fluxes not known", "electrical, rotation", "induction"),
     Row("Machines", "motor with every arrow reversed", "electrical, rotation", "motor_reversed"),
     Row("Machines", "battery, charge counted", "electrical, chemical", "battery"),

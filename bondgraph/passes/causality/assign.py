@@ -34,9 +34,9 @@ def assign(graph: BondGraph, preference: Preference, report: Report) -> CausalGr
     free = _free_choices(graph, at)
     strokes = _placed(net, musts, wishes, free)
     switched = any(node.when is not None for node in graph.nodes)
-    together = strokes is not None  # all switched junctions can be on at once
-    if strokes is None and switched:
-        strokes = _in_a_mode(graph, net, musts, wishes, free)
+    together = strokes is not None  # an assignment serves all switched junctions at once
+    if switched and not (together and _ever_together(graph)):
+        strokes = _in_a_mode(graph, net, musts, wishes, free) or strokes
     if strokes is None:
         _refuse(graph, report)
         return None
@@ -85,6 +85,13 @@ def _in_a_mode(
         if strokes is not None:
             return strokes
     return None
+
+
+def _ever_together(graph: BondGraph) -> bool:
+    """Whether some setting of the switches has all switched junctions on."""
+    from bondgraph.passes.causality.switches import settings
+
+    return any(not off for _, off in settings(graph))
 
 
 def _refuse(graph: BondGraph, report: Report) -> None:

@@ -24,6 +24,11 @@ from bondgraph.text.source import Span
 #: A number and what looks like the first part of its unit, before a name.
 _UNIT_BEFORE = r"(?<![\w.])([0-9][\w.+-]*) ([^\W\d][\w.^/*\s-]*?[*/])\s*\Z"
 _UNIT_AFTER = r"\w+(?:\^-?[0-9]+)?(?:[*/.][^\W\d]\w*(?:\^-?[0-9]+)?)*"
+#: What is meant by the time, which no model has.
+_TIME = (
+    "A model has no time of its own. What is given as a function of time is an `input`; a scenario "
+    "of `simulate` says what it is at each t."
+)
 
 
 def unit_meant(origin: Span) -> Remedy | None:
@@ -136,8 +141,9 @@ class Lookup:
                  help=self.signals(node, ref.origin.text))  # fmt: skip
         unit = unit_meant(ref.origin) if len(ref.parts) == 1 else None
         fail(self.report, "unknown-name", f"`{inside.model.name}` has no value `{part.name}`.",
-             part.origin, help=unit or meant(part.name, (*known, *inside.values), "Declare it, "
-             f"as in `param {part.name} = 1` or `let {part.name} = ...`.",
+             part.origin, help=unit or meant(part.name, (*known, *inside.values),
+             _TIME if part.name in ("t", "time") else
+             f"Declare it, as in `param {part.name} = 1` or `let {part.name} = ...`.",
              part.origin))  # fmt: skip
 
     @staticmethod

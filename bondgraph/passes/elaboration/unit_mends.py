@@ -97,6 +97,7 @@ def _candidates(
     for model in file.models:
         own = [(s, n) for s, n in _quantities(model) if n.origin in places]
         yield from _inverted(model, {s.name.name for s, _ in own})
+        yield from (m for at, m in _inverted_numbers(model) if at & places)
         params += own
     for i, (one, first) in enumerate(params):
         for other, second in params[i + 1 :]:
@@ -115,6 +116,7 @@ def _compliances(file: File) -> Iterator[Mend]:
     """The inverse for each param that is the value of a C."""
     for model in file.models:
         yield from _inverted(model, {s.name.name for s, _ in _quantities(model)})
+        yield from (m for _, m in _inverted_numbers(model))
 
 
 def _inverted(model: Model, params: set[str]) -> Iterator[Mend]:
@@ -124,7 +126,17 @@ def _inverted(model: Model, params: set[str]) -> Iterator[Mend]:
         plain = isinstance(value, Ref) and len(value.parts) == 1
         name = value.parts[0].name if isinstance(value, Ref) else node.name.name
         if node.type == "C" and name in params and (plain or (value is None and not node.law)):
-            yield _stiffness(node.origin, node.name.origin, value and value.origin, name)
+            yield _stiffness(node.origin, node.name.origin, value and value.origin, f"1/{name}")
+
+
+def _inverted_numbers(model: Model) -> Iterator[tuple[set[Span], Mend]]:
+    """The inverse of each number that is the value of a C, and where it stands."""
+    for node in nodes_of(model.body):
+        value = node.value
+        if node.type == "C" and isinstance(value, Number) and value.unit is not None:
+            new = f"1/({value.origin.text})"
+            places = {node.origin, value.origin}
+            yield places, _stiffness(node.origin, node.name.origin, value.origin, new)
 
 
 def _quantities(model: Model) -> list[tuple[Param, Number]]:
@@ -142,13 +154,13 @@ def _measures(number: Number) -> str:
     return "" if unit is None else describe(unit.dimension)
 
 
-def _stiffness(node: Span, name: Span, value: Span | None, param: str) -> Mend:
-    """1/k for the k of a C."""
-    new = f"1/{param}"
+def _stiffness(node: Span, name: Span, value: Span | None, new: str) -> Mend:
+    """The inverse `new` for the value of a C."""
     change = (Span(name.source, name.end, name.end), f" = {new}") if value is None else (value, new)
     written = f"{node.source.text[node.start : name.end]} = {new}"
+    what = new.removeprefix("1/").strip("()")
     words = (
-        f"`{param}` has the unit of a stiffness, and the value of a C is a compliance: write "
+        f"`{what}` has the unit of a stiffness, and the value of a C is a compliance: write "
         f"`{written}`."
     )
     return words, Edit(f"write `{written}`", (change,))

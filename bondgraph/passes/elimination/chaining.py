@@ -19,7 +19,7 @@ from bondgraph.algebra.conjugates import two_valued
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.solve import ITERATED, Solution, solve
 from bondgraph.ir.equation_system import Equation, EquationSystem
-from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, symbols, variables
 from bondgraph.ir.nodes import has, occurs
 from bondgraph.ir.residuals import Closing, How, Missing, ReducedSystem, Step
 from bondgraph.passes.elimination.colour import colours
@@ -27,6 +27,7 @@ from bondgraph.passes.elimination.cost import FREE_START, ITERATION, LOOP, Cost,
 from bondgraph.passes.elimination.initial import without_free_integrals
 from bondgraph.passes.elimination.linear_block import (
     LARGEST,
+    linear_equation,
     linear_equations,
     products,
     solve_block,
@@ -37,6 +38,7 @@ from bondgraph.passes.elimination.shortfall import (
     unaccounted,
 )
 from bondgraph.passes.elimination.tearing import Loops
+from bondgraph.passes.elimination.turned import angular, turned_pair
 from bondgraph.structural.matching import components, decompose
 from bondgraph.text.tuples import NamedTuple
 
@@ -71,6 +73,10 @@ class _Known:
         for row, equation in enumerate(system.equations):
             for variable in equation.variables:
                 self.holders[variable].append(row)
+        #: equations between two unknowns that may hold the sine of an angle
+        self.angular = [
+            row for row, e in enumerate(system.equations) if e.state is None and angular(e.zero)
+        ]
         self._solutions: dict[tuple[int, Expr], Solution | None] = {}
 
     def solution(self, row: int, variable: Expr) -> Solution | None:
@@ -201,7 +207,7 @@ class Chain:
         others = [self.cost[v] for v in equation.variables if v is not variable]
         late = 0
         if equation.kind == "state" and how == "integrated":
-            late = FREE_START if free else 1
+            late = FREE_START if free else int(not self.commanded(variable, equation))
         elif solution.hard == ITERATED or (solution.hard and not self.starts):
             late = ITERATION
         derived = equation.kind != "balance" and has([solution.value], Op.DER)
@@ -213,6 +219,13 @@ class Chain:
             self.known.position[variable], solution, how,
         )  # fmt: skip
         heapq.heappush(self.later if late else self.heap, offer)
+
+    def commanded(self, variable: Expr, equation: Equation) -> bool:
+        """Whether an `int(...)` of the model adds up inputs alone, which no sensor says better."""
+        assert equation.rate is not None
+        own = symbols(self.substituted(equation.rate))
+        told = (Kind.INPUT, Kind.MODE, *CONSTANTS)
+        return variable.kind is Kind.INTEGRAL and all(s.kind in told for s in own)
 
     def run(self) -> None:
         """Take the cheapest offers until nothing is offered any more."""
@@ -261,7 +274,7 @@ class Chain:
     def stalled(self) -> bool:
         """Make progress where chaining has stopped; False when there is none to be made."""
         self.loops.solve_algebraic()
-        if self.postponed(self.eager) or self.tear(states=False):
+        if self.postponed(self.eager) or self.turned() or self.tear(states=False):
             return True
         if self.postponed() or self.tear_two_valued():
             return True
@@ -281,6 +294,47 @@ class Chain:
             return True
         return False
 
+    def turned(self) -> bool:
+        """Solve for two unknowns that are those of a frame turned by a known angle."""
+        heads = [r for r in self.known.angular if not self.used[r] and self.waiting[r] == 2]
+        if not heads:
+            return False
+        lines = []
+        for row in self.around(heads):
+            zero = self.system.equations[row].zero
+            line = linear_equation(
+                self.pool, row, zero, self.free_in(row), self.substituted,
+                fits=lambda slope: not variables(slope),
+            )  # fmt: skip
+            if line is not None:
+                lines.append(line)
+        found = turned_pair(self.pool, lines, self.nominal.vanishes)
+        if found is None:
+            return False
+        for row in found.equations:
+            self.used[row] = True
+        for (variable, value), row in zip(found.values.items(), found.equations, strict=True):
+            self.loops.give(variable, found.equations, value)
+            self.torn(variable, row)
+        return True
+
+    def around(self, heads: list[int]) -> list[int]:
+        """Unused equations that hold an unknown which those of two unknowns tie to some of them."""
+        near = dict.fromkeys(heads)
+        ties = [*heads]
+        for row in ties:  # grows on the way
+            for other in [r for v in self.free_in(row) for r in self.holders[v]]:
+                if other in near or self.used[other] or self.system.equations[other].state:
+                    continue
+                near[other] = None
+                if self.waiting[other] == 2:
+                    ties.append(other)
+        return sorted(near)
+
+    def free_in(self, row: int) -> list[Expr]:
+        """The variables of an equation that have not been computed."""
+        return [v for v in self.system.equations[row].variables if v not in self.closed]
+
     def tear(self, states: bool, stubborn: bool = False) -> bool:
         """Take one variable of each remaining solvable block as if it were known.
 
@@ -297,8 +351,7 @@ class Chain:
         columns: dict[Expr, int] = {}
         graph = []
         for r in rows:
-            free = [v for v in self.system.equations[r].variables if v not in self.closed]
-            graph.append([columns.setdefault(v, len(columns)) for v in free])
+            graph.append([columns.setdefault(v, len(columns)) for v in self.free_in(r)])
         parts = decompose(graph, len(columns))
         solvable = {*parts.over_columns, *(() if stubborn else parts.square_columns)}
         names = list(columns)

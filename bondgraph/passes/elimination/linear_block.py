@@ -57,8 +57,9 @@ def linear_equation(
     zero: Expr,
     variables: Sequence[Expr],
     known: Callable[[Expr], Expr],
+    fits: Callable[[Expr], bool] = constant,
 ) -> LinearEquation | None:
-    """An equation in `variables`, None where a coefficient is not constant or it is not linear.
+    """An equation in `variables`, None where it is not linear or a coefficient does not fit.
 
     `known` puts in the values of all other variables.
     """
@@ -69,7 +70,7 @@ def linear_equation(
             return None
         slope, zero = parts
         slope = known(slope)
-        if not constant(slope):
+        if not fits(slope):
             return None
         if slope is not pool.zero:
             entries[variable] = slope

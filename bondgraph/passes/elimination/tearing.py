@@ -113,17 +113,25 @@ class Loops:
         self.variable[symbol] = variable
         return symbol
 
+    def give(self, variable: Expr, rows: tuple[int, ...], value: Expr) -> None:
+        """Take a variable whose value some equations give together as torn and solved for."""
+        self._record(self.tear(variable), self._row(rows, value))
+
     def row(self, row: int, expr: Expr) -> None:
         """An equation all of whose variables have been computed, some from torn ones."""
+        item = self._row((row,), expr)
+        (self.pending if self._tears(item.expr) else self.plain).append(item)
+
+    def _row(self, rows: tuple[int, ...], expr: Expr) -> _Row:
+        """An expression with the values of those torn variables in it that have one."""
         solved = [t for t in self._tears(expr) if t in self.solved]
-        rows = [r for t in solved for r in self.solved[t].rows]
+        below = [r for t in solved for r in self.solved[t].rows]
         if solved:
             values = self.solutions()
             if any(t not in values for t in solved):
                 raise ZeroDivisionError  # by what the loop makes zero: the count will miss it
             expr = self.pool.substitute([expr], values)[0]
-        item = _Row((*dict.fromkeys(rows), row), expr)
-        (self.pending if self._tears(expr) else self.plain).append(item)
+        return _Row(tuple(dict.fromkeys((*below, *rows))), expr)
 
     def open_in(self, expr: Expr) -> bool:
         """Whether an expression holds a torn variable that has no value yet, or two."""

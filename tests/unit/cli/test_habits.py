@@ -147,6 +147,20 @@ def test_quantities_have_units_wherever_they_are_options(
     assert plain.status == 0 and plain.out == spelled.out
 
 
+@pytest.mark.parametrize(("word", "current"), [("true", 4.0), ("false", 0.0)])
+def test_a_switch_is_told_true_or_false(
+    bondgraph: Command, tmp_path: Path, word: str, current: float
+) -> None:
+    model, log = tmp_path / "lamp.bg", tmp_path / "run.csv"
+    model.write_text(
+        "bg 1\nmodel Lamp {\n input on : bool\n Se:U = if(on, 12, 0)\n"
+        " U -> 1:i { -> R:R = 3; -> Df:y }\n}\n"
+    )
+    assert bondgraph("simulate", model, "--duration", "0.1", "--input", f"on={word}",
+                     "-o", log).status == 0  # fmt: skip
+    assert read_log(str(log)).columns["y"] == pytest.approx(current)  # 12 V at 3 Ohm
+
+
 @pytest.mark.parametrize(
     ("words", "status", "said"),
     [
@@ -155,6 +169,7 @@ def test_quantities_have_units_wherever_they_are_options(
         (("--duration", "4 furlongs"), 2, "in s or with a unit"),
         (("--input", "U=3 A"), 1, "`U` is in V, not in A"),
         (("--input", "U=3 Volt volt"), 2, "NAME=VALUE"),
+        (("--input", "U=true"), 1, "`U` is a number, not true or false"),
     ],
 )
 def test_units_that_do_not_fit_are_refused(

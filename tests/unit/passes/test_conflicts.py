@@ -279,6 +279,25 @@ def test_ideal_switches_may_take_turns(one: str, other: str) -> None:
     assert imposed.count("switched") == 2  # both bonds of the junction that is off
 
 
+#: A coil that the switches lay beside the source and beside a capacitor.
+_LIFTS = """1:a when on {{ <- Se:E; -> x }}
+1:b when {} {{ <- x; -> out }}
+0:x -> 1:i -> I:L = 1
+0:out {{ -> C:c = 1; -> R:r = 1 }}"""
+
+
+def test_a_storage_is_not_told_to_depend_on_a_switch_that_is_never_on_with_its_own() -> None:
+    """A buck-boost converter: only with both switches on would the source lie at the capacitor."""
+    start = "input on : bool\ninput up : bool\n"
+    dependent = []
+    for when in ("not on", "up"):
+        text = f"bg 1\nmodel M {{\n{start}{_LIFTS.format(when)}\n}}\n"
+        model = Compilation(Source("m.bg", text))
+        assert model.integral is not None
+        dependent.append([model.graph.nodes[s.node].path for s in model.integral.dependent])
+    assert dependent == [[], ["c"]]
+
+
 def test_switches_that_may_meet_are_warned_of_in_the_mode_in_which_they_do() -> None:
     found = warnings("input up : bool\n" + _TURNS.format("on", "up"))
     assert [d.message for d in found] == [

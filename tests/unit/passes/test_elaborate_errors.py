@@ -178,6 +178,12 @@ def test_the_remedy_names_what_was_meant() -> None:
     assert said[0].labels[0].span.text == "stifness"
 
 
+def test_who_writes_a_function_of_time_is_told_of_inputs_and_scenarios() -> None:
+    said = run(f"model M {{ {BASE} let u = exp(-t) }}")[1]
+    assert [d.code for d in said] == ["unknown-name"]
+    assert "`input`" in said[0].help and "scenario" in said[0].help
+
+
 @pytest.mark.parametrize(
     ("written", "meant"),
     [("3 kg*m^2", "3 kg.m^2"), ("2*3e-4 N*m*s/rad", "3e-4 N.m.s/rad"), ("3 N * m", "3 N.m")],

@@ -23,6 +23,8 @@ SEEN = [
     ("param k = 2 N/m; param m = 1 kg; 1:j { <- Se:F; -> C:k; -> I:m }", "write `C:k = 1/k`"),
     ("param k = 2 N/m; input F : N; param m = 1 kg; 1:j { <- Se:F; -> C:s = k; -> I:m }",
      "write `C:s = 1/k`"),
+    ("1:j { <- Se:F; -> C:k = 300 N/m; -> I:m = 2 kg }", "write `C:k = 1/(300 N/m)`"),
+    ("1:j { <- Se:F; -> I:m = 2 kg; -> C:k = 300 N/m }", "write `C:k = 1/(300 N/m)`"),
     ("param k = 2 N/m; 0:x { <- p; -> C:k }; port p : in translation", "write `C:k = 1/k`"),
     ("param R = 2 mH; param L = 3 Ohm; 1:j { <- Se:U; -> R:R; -> I:L }",
      "exchange 2 mH and 3 Ohm"),
