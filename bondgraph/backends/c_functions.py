@@ -212,7 +212,8 @@ class _Procedure:
         units = [self.units[k] for k in piece.numbers()]
         wanted = [u for u in units if set(u.gives) & set(piece.gives)] or units
         texts = list(dict.fromkeys(u.comment for u in wanted if u.comment))
-        return "; ".join(texts if len(texts) < 3 else (texts[0], "...", texts[-1]))
+        said = "; ".join(texts if len(texts) < 3 else (texts[0], "...", texts[-1]))
+        return said or f"{part or 'a part'}: {self.file.noun}"
 
 
 def _used(units: Iterable[Unit]) -> frozenset[str]:

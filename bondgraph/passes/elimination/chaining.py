@@ -313,9 +313,9 @@ class Chain:
             return False
         for row in found.equations:
             self.used[row] = True
-        for (variable, value), row in zip(found.values.items(), found.equations, strict=True):
+        for variable, value in found.values.items():
             self.loops.give(variable, found.equations, value)
-            self.torn(variable, row)
+            self.torn(variable, self.holders[variable][0])
         return True
 
     def around(self, heads: list[int]) -> list[int]:
