@@ -174,7 +174,7 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     compilation = realising(args, rate=rate, bandwidth=bandwidth)
     engine, decided = watching(compilation, tuning, note, args.accept)
     mapping = read_map(args.map, engine.signals) if args.map else None
-    journal = _journal(args.journal, compilation, source, engine)
+    journal = _journal(args.journal, compilation, source, engine, args.accept is not None)
     form = form_of(args, source.name)
     settings = WatchSettings(compilation, tuning, form, mapping, args.operating, args.accept)
     alarms = Alarms()
@@ -226,7 +226,7 @@ def source(args: Namespace, samples: Address | None) -> Source:
 
 
 def _journal(
-    path: str | None, compilation: Compilation, source: Source, engine: Engine
+    path: str | None, compilation: Compilation, source: Source, engine: Engine, accepts: bool
 ) -> Journal | None:
     from bondgraph.runtime.monitoring.journal import Journal
 
@@ -236,6 +236,8 @@ def _journal(
     digest = compilation.program.digest + ("" if bounds is None else f"-{bounds.digest}")
     if engine.bandwidth != compilation.program.bandwidth:  # of a tuning
         digest += f"-{engine.bandwidth:g}"
+    if accepts:  # its state has the faults that were accepted
+        digest += "-accept"
     return Journal(path, compilation.graph.name, digest, source.name, compilation.program.rate)
 
 

@@ -74,7 +74,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
     parser.add_argument("--short", action="store_true", help="most things once, smaller models")
     short = parser.parse_args().short
-    print("Medians of runs taken in turn on this machine, in this run.\n")
+    taken = "Single runs" if short else "Medians of runs taken in turn"
+    print(f"{taken} on this machine, in this run.\n")
     commands(1 if short else 11)
     verification(1 if short else 11)
     print()

@@ -204,7 +204,8 @@ class AcceptedFaults:
         if fault.kind == "value":
             value, declared = self._engine.parameters[fault.fault], self._model.nominal[fault.fault]
             text = f"{told.fault} is taken for {value:.4g} {told.unit}".rstrip() + f" ({size})"
-            if abs(value - declared) <= _REPAIRED * fault.deviation:
+            before = any(one[:2] == fault[:2] for one in self.accepted[:-1])
+            if before and abs(value - declared) <= _REPAIRED * fault.deviation:
                 text += ", which is what was declared"
         elif fault.kind == "stuck":
             text = f"{told.fault} is taken so, whatever is told"

@@ -99,13 +99,13 @@ def test_the_second_of_two_faults_is_named_with_its_size(tmp_path: Path) -> None
     assert [v[:3] + v[4:5] for v in again] == [v[:3] + v[4:5] for v in said]
     sizes = [[c.size for v in found for c in v.candidates] for found in (again, said)]
     assert sizes[0] == pytest.approx(sizes[1], rel=1e-9)
-    # without acceptance the second one is told as one of two, or not at all
+    # without acceptance the second one is not named
     engine, plain = _motor().engine(), []
     other = _motor().diagnosis(engine)
     for k in range(0, len(time), 1000):
         own = slice(k, k + 1000)
         plain += other.update(time[own], engine.run(samples[own]), samples[own])
-    assert plain[: len(said[:2])] != said[:2] or not any("speed" in v.group for v in plain)
+    assert any("R" in v.group for v in plain) and not any("speed" in v.group for v in plain)
 
 
 def test_a_repair_is_told_and_is_a_new_baseline(tmp_path: Path) -> None:
@@ -210,3 +210,6 @@ def test_the_command_accepts(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert events.count("accepted") == 2
     head, *_, last = Path(states).read_text().splitlines()
     assert dict(zip(head.split(","), last.split(","), strict=True))["state"] == "healthy"
+    # a watch that accepts nothing cannot go on where faults were accepted
+    assert main(["monitor", *words[:2], "--journal", journal]) == 1
+    assert "belongs to another model or other options" in capsys.readouterr().err
