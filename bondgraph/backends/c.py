@@ -26,7 +26,7 @@ from bondgraph.backends.members import Member, derivatives, samples, signals
 from bondgraph.backends.nominal_coefficients import Nominal, nominal
 from bondgraph.backends.one_procedure import Start
 from bondgraph.backends.parts import exact_part, step_part
-from bondgraph.backends.procedure_lines import ANYTHING, About, lines, roots, tables
+from bondgraph.backends.procedure_lines import ANYTHING, About, by_statement, roots, tables
 from bondgraph.backends.program_units import grouped, units
 from bondgraph.backends.repeated import repeated
 from bondgraph.backends.short_functions import parts
@@ -452,13 +452,13 @@ class Code:
         named = {declared.split("*")[-1].split()[-1]: declared for declared in arguments}
         name, program = f"{self.own}compute", self.program
         statements = self._statements(program.configure, self._configure, tape=self._tape)
-        written = self._functions(named, noun="coefficients").procedure(name, *statements)
-        if not written.functions:
-            return written
+        functions = self._functions(named, noun="coefficients")
+        whole = functions.whole(*statements)
+        if whole is not None:
+            return whole
         rows = grouped(program.configure)
         own, write = self._statements([s for _, s in rows], self._configure, tape=self._tape)
         keyed = [unit._replace(key=key) for unit, (key, _) in zip(own, rows, strict=True)]
-        functions = self._functions(named, noun="coefficients")
         return functions.procedure(name, keyed, write, cut=parts)
 
     def _settle(self, info: ResidualInfo) -> list[str]:
@@ -682,12 +682,12 @@ class Code:
         speller: CodeSpeller,
         about: About = ANYTHING,
         tape: Callable[[PolynomialTape, CodeSpeller], list[str]] | None = None,
-    ) -> tuple[list[Unit], Callable[[Sequence[int], int], list[str]]]:
+    ) -> tuple[list[Unit], Callable[[Sequence[int], int], list[list[str]]]]:
         """Statements as what functions are made of, and what writes some of them."""
 
-        def write(numbers: Sequence[int], indent: int) -> list[str]:
+        def write(numbers: Sequence[int], indent: int) -> list[list[str]]:
             own = [statements[k] for k in numbers]
-            return lines(own, self.spelling, speller, indent, tape, about)
+            return by_statement(own, self.spelling, speller, indent, tape, about)
 
         return units(statements, speller, about.prefix), write
 

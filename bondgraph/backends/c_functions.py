@@ -11,8 +11,8 @@ from bondgraph.backends.short_functions import Piece, Step, pieces, together
 from bondgraph.backends.target import Target
 from bondgraph.text.tuples import NamedTuple
 
-#: The lines of statements by number, which stand behind each other, with this indent.
-_Write: TypeAlias = Callable[[Sequence[int], int], list[str]]
+#: The lines of each of some statements by number, which stand behind each other, at an indent.
+_Write: TypeAlias = Callable[[Sequence[int], int], list[list[str]]]
 _Cut: TypeAlias = Callable[[Sequence[Step], int, int], tuple[int | Piece, ...]]
 
 _TAB = 4
@@ -60,6 +60,11 @@ class Functions:
         self.heads, self.noun = heads or {}, noun
         self.taken = set(taken) | target.reserved
 
+    def whole(self, units: Sequence[Unit], write: _Write, around: int = 0) -> Written | None:
+        """What is short enough to stand in one function, with so many lines `around`."""
+        found = _joined(write(range(len(units)), _TAB))
+        return Written(found, [], _used(units)) if len(found) <= LONGEST - around else None
+
     def procedure(
         self,
         name: str,
@@ -73,11 +78,10 @@ class Functions:
         `cut` says where to cut what is too long. How many lines a call takes is seen when it is
         written: then there is less room.
         """
-        room = LONGEST - around
-        whole = write(range(len(units)), _TAB)
-        if len(whole) <= room:
-            return Written(whole, [], _used(units))
-        steps = _steps(units, write)
+        whole, room = self.whole(units, write, around), LONGEST - around
+        if whole is not None:
+            return whole
+        steps = _steps(units, write(range(len(units)), _TAB))
         for less in range(3, 20, 4):
             one = _Procedure(self, name, units, write)
             members = cut(steps, room - less, LONGEST - _AROUND)
@@ -95,11 +99,13 @@ class Functions:
     ) -> Written:
         """The same of two procedures, of which one is run; each is a function if they are long."""
         found = [_Procedure(self, *side) for side in sides]
-        bodies = [one.write(range(len(one.units)), 2 * _TAB) for one in found]
+        bodies = [_joined(one.write(range(len(one.units)), 2 * _TAB)) for one in found]
         uses = _used([unit for one in found for unit in one.units])
         if sum(map(len, bodies)) + 3 > LONGEST - around:
             most = LONGEST - _AROUND
-            cut = [pieces(_steps(one.units, one.write), most, most) for one in found]
+            whole = [one.write(range(len(one.units)), _TAB) for one in found]
+            steps = [_steps(one.units, own) for one, own in zip(found, whole, strict=True)]
+            cut = [pieces(own, most, most) for own in steps]
             calls = [one.call(Piece(own, (), ())) for one, own in zip(found, cut, strict=True)]
             bodies = [[" " * _TAB + line for line in call] for call in calls]
             uses = frozenset()
@@ -125,7 +131,7 @@ class _Procedure:
             if isinstance(member, int):
                 run.append(member)
                 if at + 1 == len(members) or not isinstance(members[at + 1], int):
-                    found += [""] * bool(found) + self.write(run, _TAB)
+                    found += [""] * bool(found) + _joined(self.write(run, _TAB))
                     run = []
             else:
                 called = at > 0 and not isinstance(members[at - 1], int)
@@ -220,12 +226,11 @@ def _used(units: Iterable[Unit]) -> frozenset[str]:
     return frozenset[str]().union(*(unit.uses for unit in units))
 
 
-def _steps(units: Sequence[Unit], write: _Write) -> list[Step]:
+def _joined(written: Iterable[Iterable[str]]) -> list[str]:
+    return [line for own in written for line in own]
+
+
+def _steps(units: Sequence[Unit], written: Sequence[Sequence[str]]) -> list[Step]:
     """Statements with the lines that each takes behind the one before it."""
-    found: list[Step] = []
-    before = 0  # lines of the last one if it stands alone
-    for at, unit in enumerate(units):
-        lines = len(write([at - 1, at] if at else [at], _TAB)) - before
-        found.append(Step(unit.gives, unit.takes, unit.key, unit.comment, lines))
-        before = len(write([at], _TAB))
-    return found
+    return [Step(unit.gives, unit.takes, unit.key, unit.comment, len(own))
+            for unit, own in zip(units, written, strict=True)]  # fmt: skip

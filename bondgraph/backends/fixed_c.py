@@ -328,15 +328,15 @@ class _Code:
         about = block.residuals[0] + ": "
         said = {r.text for r in self.program.residuals}  # above the function
 
-        def write(numbers: Sequence[int], indent: int) -> list[str]:
-            found: list[str] = []
+        def write(numbers: Sequence[int], indent: int) -> list[list[str]]:
+            found: list[list[str]] = []
             last = ""
             for explained in (procedure[k] for k in numbers):
-                comment = explained.comment.removeprefix(about)
+                comment, own = explained.comment.removeprefix(about), list[str]()
                 if comment and comment != last and explained.comment not in said:
-                    found += [""] * bool(found) + listing.comment(comment, self.target, indent)
+                    own = [""] * bool(found) + listing.comment(comment, self.target, indent)
                 last = comment or last
-                found += self._statement(explained.instruction, spell, indent)
+                found.append(own + self._statement(explained.instruction, spell, indent))
             return found
 
         units = [self._unit(e, spell, about) for e in procedure]

@@ -49,35 +49,51 @@ def lines(
     `tape` writes a polynomial tape, which each language does in its own way. What the function is
     `about` anyway is not said again.
     """
+    found = by_statement(statements, spelling, speller, indent, tape, about)
+    return [line for own in found for line in own]
+
+
+def by_statement(
+    statements: Iterable[Statement | Start],
+    spelling: Spelling,
+    speller: CodeSpeller,
+    indent: int,
+    tape: Callable[[PolynomialTape, CodeSpeller], list[str]] | None = None,
+    about: About = ANYTHING,
+) -> list[list[str]]:
+    """The same, with the lines of each statement, and of the comment above it, by themselves."""
     target = spelling.target
-    found: list[str] = []
+    found: list[list[str]] = []
     last, last_place = "", about.place
     for statement in statements:
+        own = [""] if any(found) else []
         if isinstance(statement, Start):
-            found += ([""] if found else []) + _start(statement, spelling, speller, indent)
+            found.append(own + _start(statement, spelling, speller, indent))
             last = ""
             continue
         place = listing.place(statement.origin)
         comment = "" if statement.comment == about.text else statement.comment
         comment = comment.removeprefix(about.prefix)
         why = listing.words("" if place == last_place else place, comment)
-        if comment != last or not found:
-            found += ([""] if found else []) + (listing.comment(why, target, indent) if why else [])
+        if comment != last or not own:
+            own += listing.comment(why, target, indent) if why else []
+        else:
+            own = []
         last, last_place = comment, place
         if isinstance(statement, PolynomialTape):
             assert tape is not None, "a tape stands only in configure"
-            found += tape(statement, speller)
+            found.append(own + tape(statement, speller))
             continue
         style = target.statements
         if isinstance(statement, Branch):
-            found += _branch(statement, spelling, speller, indent)
+            found.append(own + _branch(statement, spelling, speller, indent))
             continue
         pattern = style.local if statement.target.space == "local" else style.assign
         if isinstance(statement, Dot):
             value = _dot(statement, spelling)
         else:
             value = speller.expression(statement.value)
-        found += _assigned(pattern, statement.target, value, spelling, speller, indent)
+        found.append(own + _assigned(pattern, statement.target, value, spelling, speller, indent))
     return found
 
 
