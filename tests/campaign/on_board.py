@@ -1,5 +1,6 @@
 """The verdict on board beside that of the monitor: the generated example in C reads the logs.
 
+It runs here in double precision, or as an image for a Cortex-M4F in qemu, in single precision.
 Both have one tuning, of healthy machines of the kind. On board nothing is learned of the one that
 is watched, and what tolerances may do is the largest of the tuning's logs.
 """
@@ -28,6 +29,11 @@ from tests.campaign.faults import Kind, kinds, lasting, span
 from tests.campaign.machines import MACHINES, Machine, compiled, run
 
 _HEALTHY = 1, 2, 3  # seeds of the machines that the tuning is of
+_HERE = "cc", "-std=c99", "-O2"
+_M4F = ("arm-none-eabi-gcc", "-std=c99", "-O2", "-mcpu=cortex-m4", "-mthumb",
+        "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", "--specs=rdimon.specs")  # fmt: skip
+_QEMU = ("qemu-system-arm", "-M", "mps2-an386", "-display", "none", "-monitor", "none",
+         "-serial", "none", "-kernel")  # fmt: skip
 _SAID = re.compile(
     r"sample (\d+): (.*?) in alarm(?:; (perhaps|one of) (.*?))?(?:; or, if it is small, (.*))?$"
 )
@@ -70,18 +76,20 @@ def _tuning(machine: Machine) -> Tuning:
 
 
 @cache
-def _program(machine: Machine) -> Path:
+def _program(machine: Machine, qemu: bool) -> Path:
     """The example of the generated code, compiled with the tuning."""
     folder = Path(tempfile.mkdtemp(prefix="on-board-"))
     c = compiled(machine).tuned(_tuning(machine))
-    c.write(folder, extras=["example"])
-    files = ["example/example.c", f"{snake(c.program.name)}.c"]
-    command = ["cc", "-std=c99", "-O2", "-I.", *files, "-o", "watch", "-lm"]
+    c.write(folder, targets=["c"], extras=["example", "qemu"])
+    stem = snake(c.program.name)
+    files = ["-I.", "example/example.c", f"{stem}.c", "-o", "watch", "-lm"]
+    board = [f"-D{stem.upper()}_FLOAT", "-T", "qemu/link.ld", "qemu/start.c"]
+    command = [*_M4F, *board, *files] if qemu else [*_HERE, *files]
     subprocess.run(command, cwd=folder, check=True)
     return folder / "watch"
 
 
-def _said(machine: Machine, samples: Array) -> list[Said]:
+def _said(machine: Machine, samples: Array, qemu: bool) -> list[Said]:
     """What the example says of samples."""
     engine = compiled(machine).engine()
     columns = {k.path: samples[:, at] for at, k in enumerate(engine.signals)}
@@ -90,7 +98,12 @@ def _said(machine: Machine, samples: Array) -> list[Said]:
     with tempfile.TemporaryDirectory() as folder:
         log = Path(folder) / "log.csv"
         write_log(Log(time, columns, units, {}), str(log))
-        done = subprocess.run([_program(machine), log], capture_output=True, text=True, check=True)
+        program = _program(machine, qemu)
+        host = f"enable=on,target=native,arg=watch,arg={log}"
+        command = [*_QEMU, program, "-semihosting-config", host] if qemu else [program, log]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if "samples, " not in done.stdout:
+            raise RuntimeError(f"{done.stdout}\n{done.stderr}")
     found = []
     for line in done.stdout.splitlines():
         if said := _SAID.match(line):
@@ -100,8 +113,8 @@ def _said(machine: Machine, samples: Array) -> list[Said]:
     return found
 
 
-def _compared(task: tuple[str, int, Kind]) -> Compared:
-    name, seed, kind = task
+def _compared(task: tuple[str, int, Kind, bool]) -> Compared:
+    name, seed, kind, qemu = task
     machine = next(m for m in MACHINES if m.name == name)
     duration, onset = span(machine)
     samples = run(machine, seed, duration, (lasting(machine, kind),))
@@ -113,7 +126,7 @@ def _compared(task: tuple[str, int, Kind]) -> Compared:
     alarm = next((v.time for v in verdicts if v.event == "fault" and v.time >= onset), None)
     classes = [v.group for v in verdicts if v.event == "update" and v.time >= onset]
     monitor = set(classes[-1]) if classes else set()
-    said = _said(machine, samples)
+    said = _said(machine, samples, qemu)
     first = round(onset * machine.rate)
     after = [one for one in said if one.sample >= first]
     row = rows_apart(engine) * engine.sample_time
@@ -131,7 +144,9 @@ def _compared(task: tuple[str, int, Kind]) -> Compared:
     )
 
 
-def on_board(machines: Sequence[Machine], seeds: int, start: int, jobs: int) -> str:
+def on_board(
+    machines: Sequence[Machine], seeds: int, start: int, jobs: int, qemu: bool = False
+) -> str:
     """A table of both, by machine."""
     lines = [
         "| machine | runs | seen by the monitor | on board | rows later, median | 95 % | false"
@@ -139,8 +154,9 @@ def on_board(machines: Sequence[Machine], seeds: int, start: int, jobs: int) -> 
         "|---" * 12 + "|",
     ]
     for machine in machines:
-        _program(machine)
-        tasks = [(machine.name, start + k, kind) for kind in kinds(machine) for k in range(seeds)]
+        _program(machine, qemu)
+        numbers = range(start, start + seeds)
+        tasks = [(machine.name, seed, kind, qemu) for kind in kinds(machine) for seed in numbers]
         with ProcessPoolExecutor(jobs) as pool:
             found = list(pool.map(_compared, tasks))
         late = [f.late for f in found if f.late is not None]
