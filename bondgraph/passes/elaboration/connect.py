@@ -184,7 +184,7 @@ class Wiring:
             f"`{owner}` has no named ports: write `{owner}` alone."
         )  # fmt: skip
         value = None if scope is None else scope.values.get(part.name)
-        if isinstance(value, ValueEntry) and value.kind in ("input", "param"):
+        if scope and isinstance(value, ValueEntry) and value.kind in ("input", "param"):
             fail(self.report, "unknown-port", f"`{part.name}` of `{owner}` is no port.",
                  Label(part.origin), Label(value.origin, "a value"),
                  help=f"No bond gives it: `{part.name} = ...` in the round brackets behind the name"
