@@ -29,7 +29,7 @@ class History:
     def __init__(self, prior: Array) -> None:
         self.prior = prior
         self.root = np.zeros((len(prior), len(prior) + 1))
-        self._known = self.root, self.root  # of which root, and what is known with it
+        self._known: tuple[Array, Array] | None = None  # of which root, and what is known by it
 
     def add(self, value: Array, weight: Array, slopes: Array, keep: float = _KEPT) -> None:
         """One row: residuals, their weights, slopes of the shape (parameters, residuals)."""
@@ -77,12 +77,11 @@ class History:
 
     def known(self) -> Array:
         """Prior and history together, in the form of `root`; the same while nothing is added."""
-        of, known = self._known
-        if of is not self.root or known is of:
+        if self._known is None or self._known[0] is not self.root:
             count = len(self.root)
             known = triangle(np.vstack([np.eye(count, count + 1), self.root]))[:count]
             self._known = self.root, known
-        return known
+        return self._known[1]
 
     def fit(self) -> Array:
         """By how much the parameters are off, most probably."""

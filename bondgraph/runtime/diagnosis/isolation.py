@@ -111,6 +111,7 @@ class Evidence:
         self._values = max(1, int((rows.weight > 0).sum()))
         self._prior = history.prior
         self._known = _with_errors(history.known(), rows.value.shape[1])
+        _finite(self._known)  # products of finite numbers may be too large for one
         self._seen = _Seen(rows, history.prior)
         self._healthy = _Healthy(self._known, self._seen.table)
 
@@ -270,7 +271,7 @@ class _Seen:
         return table.reshape(-1, self._length, *table.shape[1:])
 
     def _white(self, table: Array) -> Array:
-        _finite(table)  # products of finite numbers may be too large for one
+        _finite(table)
         white = self._unroot @ self._chunks(table).transpose(0, 2, 1, 3)
         _finite(white)
         return white.transpose(0, 2, 1, 3).reshape(len(white), -1, table.shape[2])

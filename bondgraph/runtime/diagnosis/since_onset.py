@@ -38,6 +38,7 @@ _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made lo
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
+_AT_ONCE = 2**19  # slopes that onsets take side by side
 _GROWS = 3  # rows within which a residual has become as large as the fault makes it
 
 
@@ -216,25 +217,31 @@ class SinceOnset:
         top = max((one.evidence for one in found), default=0.0)
         behind = {one.fault for one in found if one.evidence < top - _BEHIND}
         every = [k for k, one in enumerate(self._all) if one.fault not in behind]
+        hypotheses, changes = [self._all[k] for k in every], self._changes()
+        best: dict[str, tuple[float, _Begun]] = {}
+        onsets, numbers = self._onsets(), len(self._past) * len(every) * self._slopes.shape[1]
+        at_once = max(1, _AT_ONCE // max(1, numbers))
+        for start in range(0, len(onsets), at_once):
+            begun = [self._begun(every, own, changes) for own in onsets[start : start + at_once]]
+            rows, others = self._weighed([
+                {every.index(k): told for k, (_, told) in one.held.items()} for one in begun
+            ])  # fmt: skip
+            cases = [Case(hypotheses, one.slopes, told)
+                     for one, told in zip(begun, others, strict=True)]  # fmt: skip
+            explained = Evidence(rows, history).explained(cases)
+            for trial, case in zip(begun, explained, strict=True):
+                for one in case:
+                    if one.fault not in best or one.evidence > best[one.fault][0]:
+                        best[one.fault] = one.evidence, trial
+        for trial in {own.onset: own for _, own in best.values()}.values():
+            self._take(trial, [k for k in every if best[self._all[k].fault][1] is trial])
+
+    def _onsets(self) -> list[int]:
+        """Healthy samples before the first row, with which a fault may have begun."""
         constant = 1.0 / (self._engine.bandwidth * self._engine.sample_time)
         lags = [round(lag / self._engine.sample_time) for lag in self._engine.lags]
-        onsets = dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS)
-        changes = self._changes()
-        begun = [self._begun(every, onset, changes) for onset in onsets
-                 if onset <= len(self._healthy)]  # fmt: skip
-        rows, others = self._weighed([
-            {every.index(k): rows for k, (_, rows) in one.held.items()} for one in begun
-        ])  # fmt: skip
-        hypotheses = [self._all[k] for k in every]
-        cases = [Case(hypotheses, *own)
-                 for own in zip([one.slopes for one in begun], others, strict=True)]  # fmt: skip
-        best: dict[str, tuple[float, int]] = {}
-        for at, case in enumerate(Evidence(rows, history).explained(cases)):
-            for one in case:
-                if one.fault not in best or one.evidence > best[one.fault][0]:
-                    best[one.fault] = one.evidence, at
-        for at, trial in enumerate(begun):
-            self._take(trial, [k for k in every if best[self._all[k].fault][1] == at])
+        found = dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS)
+        return [earlier for earlier in found if earlier <= len(self._healthy)]
 
     def _banked(
         self,
