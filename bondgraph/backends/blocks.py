@@ -6,13 +6,13 @@ A bad sample restarts the filter of the blocks that see its signal, and no other
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from functools import lru_cache
 
 from bondgraph.backends.one_procedure import Procedure, heard, one_procedure
 from bondgraph.ir.groups import Groups
-from bondgraph.ir.program import Assignment, Delayed, Program, Ref, flat
-from bondgraph.notation.walk import references
+from bondgraph.ir.program import Assignment, Delayed, Program, Ref
+from bondgraph.notation.walk import reads
 from bondgraph.text.tuples import NamedTuple
 
 
@@ -27,6 +27,7 @@ class Block(NamedTuple):
     step: tuple[Assignment, ...]
     run: Procedure  # both as one
     heard: frozenset[str]  # the signals that make a residual NaN or infinite if they are
+    spaces: frozenset[str]  # of all values that occur
 
 
 class Line(NamedTuple):
@@ -51,31 +52,32 @@ def blocks(program: Program) -> tuple[Block, ...]:
     A residual that step never assigns is in none.
     """
     groups = Groups[_Key]()
-    first = [(_key(s.target, "first"), s) for s in program.first]
-    step = [(_key(s.target, "step"), s) for s in program.step]
+    first = [(_key(s.target, "first"), s, reads([s])) for s in program.first]
+    step = [(_key(s.target, "step"), s, reads([s])) for s in program.step]
     for procedure, statements in (("first", first), ("step", step)):
-        for key, statement in statements:
-            for part in flat([statement]):
-                for ref in (part.target, *references(part.value)):
-                    if ref.space in ("state", "local", "residual"):
-                        groups.join(key, _key(ref, procedure))
+        for key, _, refs in statements:
+            for ref in refs:
+                if ref.space in ("state", "local", "residual"):
+                    groups.join(key, _key(ref, procedure))
     for opening in program.openings:  # what is valid and when is decided together with the value
         groups.join(("residual", opening.residual), ("state", opening.progress))
     members: dict[_Key, list[str]] = {}
     for info in program.residuals:
         members.setdefault(groups.find(("residual", info.name)), []).append(info.name)
-    own: dict[_Key, tuple[list[Assignment], list[Assignment]]]
-    own = {root: ([], []) for root in members}
-    for at, statements in enumerate((first, step)):
-        for key, statement in statements:
+    own: dict[_Key, tuple[list[Assignment], list[Assignment], set[Ref]]]
+    own = {root: ([], [], set()) for root in members}
+    for procedure, statements in (("first", first), ("step", step)):
+        for key, statement, refs in statements:
             if (root := groups.find(key)) in own:
-                own[root][at].append(statement)
+                begin, go_on, read = own[root]
+                (begin if procedure == "first" else go_on).append(statement)
+                read.update(refs)
     knowns = {k.name: at for at, k in enumerate(program.read)}
     states = {s.name: at for at, s in enumerate(program.states)}
     return tuple(
-        _block(knowns, states, residuals, tuple(own[root][0]), tuple(own[root][1]))
-        for root, residuals in members.items()
-        if any(own[root])
+        _block(knowns, states, residuals, tuple(begin), tuple(go_on), refs)
+        for (begin, go_on, refs), residuals in zip(own.values(), members.values(), strict=True)
+        if refs
     )
 
 
@@ -113,8 +115,8 @@ def _block(
     residuals: list[str],
     first: tuple[Assignment, ...],
     step: tuple[Assignment, ...],
+    refs: Set[Ref],
 ) -> Block:
-    refs = [ref for s in flat((*first, *step)) for ref in (s.target, *references(s.value))]
     signals = {ref.name for ref in refs if ref.space in _SIGNALS}
     memory = {ref.name for ref in refs if ref.space == "state"}
     few = len(residuals) <= 3
@@ -128,6 +130,7 @@ def _block(
         step,
         run,
         heard(run),
+        frozenset(ref.space for ref in refs),
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
 
 from bondgraph.backends import decision, listing
 from bondgraph.backends.blocks import Block
@@ -26,7 +27,7 @@ from bondgraph.backends.members import Member, derivatives, samples, signals
 from bondgraph.backends.nominal_coefficients import Nominal, nominal
 from bondgraph.backends.one_procedure import Start
 from bondgraph.backends.parts import exact_part, step_part
-from bondgraph.backends.procedure_lines import ANYTHING, About, by_statement, roots, tables
+from bondgraph.backends.procedure_lines import ANYTHING, About, code_lines, commented, roots, tables
 from bondgraph.backends.program_units import grouped, units
 from bondgraph.backends.repeated import repeated
 from bondgraph.backends.short_functions import parts
@@ -62,16 +63,15 @@ _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 def files(
     program: Program,
     target: Target,
-    golden: Golden,
     tuned: Tuned = UNTUNED,
     bounds: Program | None = None,
     decides: bool = True,
 ) -> dict[str, object]:
-    """The holes of all templates of C but those of `exact`.
+    """The holes of all templates of C but those of `exact`, of `tests` and of the example.
 
     The thresholds `bounds` stand beside the residuals, and take the same parameters and samples.
     """
-    whole, program = program, step_part(program)
+    program = step_part(program)
     about = facts(program)
     spelling = Spelling(program, target)
     code = Code(program, spelling, about.stem)
@@ -88,7 +88,6 @@ def files(
         **_file(shared, codes, target),
         **_limits(program, about, code),
         **_Declarations(codes).all(),
-        **Vectors(whole, Spelling(whole, target), golden).c(),
         **decision.c_holes(program, tuned, target),
         "noun": about.noun,
         "digest": program.digest,
@@ -109,6 +108,11 @@ def files(
         found[f"{name}_header"] = fill("c/core.h.j2", holes).rstrip("\n")
         found[f"{name}_code"] = fill("c/core.c.j2", holes).rstrip("\n")
     return {"thresholds_header": "", "thresholds_code": "", **found}
+
+
+def vectors(program: Program, target: Target, golden: Golden) -> dict[str, object]:
+    """The holes of the templates of `tests` and of the example."""
+    return Vectors(program, Spelling(program, target), golden).c()
 
 
 def tests(
@@ -451,15 +455,18 @@ class Code:
         """What computes the coefficients from these arguments, in parts if it is long."""
         named = {declared.split("*")[-1].split()[-1]: declared for declared in arguments}
         name, program = f"{self.own}compute", self.program
-        statements = self._statements(program.configure, self._configure, tape=self._tape)
+        own, write = self._statements(program.configure, self._configure, tape=self._tape)
         functions = self._functions(named, noun="coefficients")
-        whole = functions.whole(*statements)
+        whole = functions.whole(own, write)
         if whole is not None:
             return whole
         rows = grouped(program.configure)
-        own, write = self._statements([s for _, s in rows], self._configure, tape=self._tape)
-        keyed = [unit._replace(key=key) for unit, (key, _) in zip(own, rows, strict=True)]
-        return functions.procedure(name, keyed, write, cut=parts)
+        keyed = [own[at]._replace(key=key) for key, at in rows]
+
+        def write_rows(numbers: Sequence[int], indent: int) -> list[list[str]]:
+            return write([rows[k][1] for k in numbers], indent)
+
+        return functions.procedure(name, keyed, write_rows, cut=parts)
 
     def _settle(self, info: ResidualInfo) -> list[str]:
         prefix = f"c->settle[{self._number(info.name)}] ="
@@ -608,8 +615,7 @@ class Code:
             target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
         )
         counts = spelling.counted(block)
-        spaces = {ref.space for ref in reads((*block.first, *block.step))}
-        head = []
+        spaces, head = block.spaces, list[str]()
         if block.run.asks or counts:
             head.append(f"const bool first = x->youngest == 0u && x->age[{number}] == 0u;")
         run = [f"    count_on(&x->e.{memory}, s->{member}, first);" for memory, member in counts]
@@ -685,9 +691,13 @@ class Code:
     ) -> tuple[list[Unit], Callable[[Sequence[int], int], list[list[str]]]]:
         """Statements as what functions are made of, and what writes some of them."""
 
+        @cache
+        def codes(indent: int) -> list[list[str]]:
+            return [code_lines(s, self.spelling, speller, indent, tape) for s in statements]
+
         def write(numbers: Sequence[int], indent: int) -> list[list[str]]:
-            own = [statements[k] for k in numbers]
-            return by_statement(own, self.spelling, speller, indent, tape, about)
+            own = [statements[k] for k in numbers], [codes(indent)[k] for k in numbers]
+            return commented(*own, self.target, indent, about)
 
         return units(statements, speller, about.prefix), write
 

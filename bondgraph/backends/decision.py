@@ -138,7 +138,6 @@ def c_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]
 def python_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]:
     """The holes of diagnosis.py.j2."""
     own = fault_classes(program, tuned)
-    names = [f'"{r.name}",' for r in program.residuals]
     return {
         **_both(program, tuned, digits, target),
         "class_names": [
@@ -146,7 +145,6 @@ def python_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, ob
         ],
         "least_sizes": [line for c in own for line in _row([*map(str, c.least)], "()", target)],
         "sure_sizes": [line for c in own for line in _row([*map(str, c.sure)], "()", target)],
-        "residual_names": listing.table_lines(names, target, 4),
     }
 
 
@@ -157,7 +155,9 @@ def _both(
     known = [tuned.limits.get(r.name, NEVER) for r in program.residuals] if tuned.source else []
     rows = [[real(x) for x in limit] for limit in known]
     braces = "{}" if target.folder == "c" else "()"
+    names = [f'"{r.name}",' for r in program.residuals]
     return {
+        "residual_names": listing.table_lines(names, target, 4),
         "decides": not program.bounds,
         "row": row,
         "least": max(3, row // 10),

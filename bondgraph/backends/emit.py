@@ -89,8 +89,7 @@ def _files(
 ) -> dict[str, str]:
     """The code of a program in one language."""
     language, found, file = _LANGUAGES[target.folder], dict[str, str](), facts(program).file
-    vectors = golden(program) if "tests" in extras else _untested(program)
-    holes = language.files(program, target, vectors, tuned, thresholds)
+    holes = language.files(program, target, tuned, thresholds)
     holes |= {f"has_{name}": name in extras for name in EXTRAS}
 
     def add(files: Iterable[tuple[str, str]], holes: dict[str, object], of: str) -> None:
@@ -98,6 +97,10 @@ def _files(
             found[path.format(file=file, of=of)] = fill(template, holes)
 
     add(target.files, holes, "")
+    if not extras:
+        return found
+    vectors = golden(program) if "tests" in extras else _untested(program)
+    holes = language.vectors(program, target, vectors) | holes
     for name in extras:
         own = holes | language.exact(program, target) if name == "exact" else holes
         if name == "misra" and name in target.extras:
@@ -113,7 +116,7 @@ def _costs(program: Program, tuned: Tuned) -> tuple[Cost, ...]:
     """What the C without thresholds costs here."""
     target, about = load("c"), facts(program)
     files = _files(program, target, None, tuned, ("tests",))
-    holes = c.files(program, target, golden(program), tuned)
+    holes = c.files(program, target, tuned) | c.vectors(program, target, golden(program))
     return costs(files, about.stem, about.file, holes)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 
 from bondgraph.algebra.near import ABOVE, BELOW, BOUND, FAR
 from bondgraph.backends import listing
@@ -51,12 +52,13 @@ class Facts(NamedTuple):
     beyond_float: tuple[float, ...]
 
 
+@lru_cache(maxsize=4)  # each target language asks
 def facts(program: Program) -> Facts:
     """The facts of a program."""
     default = program.bandwidth / program.rate
-    run = [*_values(program.exact), *_values(program.first), *_values(program.step)]
+    run = dict.fromkeys(_values((*program.exact, *program.first, *program.step)))
     for block in program.roots:
-        run += [*_values(block.body + block.further), block.value, block.slope]
+        run |= dict.fromkeys([*_values(block.body + block.further), block.value, block.slope])
     every = [*_values(program.configure), *run]
     numbers = [node.value for node in nodes(every) if isinstance(node, Const)]
     numbers += [z for _, points in program.tables for point in points for z in point if z == z]

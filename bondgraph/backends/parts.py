@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from bondgraph.ir.program import PolynomialTape, Program, TapeOp
 from bondgraph.notation.walk import reads
 from bondgraph.passes.lowering.prune import pruned
 
 
+@lru_cache(maxsize=4)  # each target language asks
 def step_part(program: Program) -> Program:
     """`step` with the coefficients that it reads; the parameters are those of the whole."""
     part = pruned(program._replace(exact=(), integrals=()))

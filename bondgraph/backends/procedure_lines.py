@@ -5,11 +5,12 @@ So are the blocks of Newton's method, which fill the holes of the templates `roo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 
 from bondgraph.backends import listing
 from bondgraph.backends.one_procedure import Procedure, Start
 from bondgraph.backends.spelling import Spelling
+from bondgraph.backends.target import Target
 from bondgraph.ir.program import (
     Assignment,
     Branch,
@@ -37,7 +38,7 @@ ANYTHING = About("", "", "")
 
 
 def lines(
-    statements: Iterable[Statement | Start],
+    statements: Sequence[Statement | Start],
     spelling: Spelling,
     speller: CodeSpeller,
     indent: int,
@@ -49,51 +50,62 @@ def lines(
     `tape` writes a polynomial tape, which each language does in its own way. What the function is
     `about` anyway is not said again.
     """
-    found = by_statement(statements, spelling, speller, indent, tape, about)
-    return [line for own in found for line in own]
+    own = [code_lines(s, spelling, speller, indent, tape) for s in statements]
+    found = commented(statements, own, spelling.target, indent, about)
+    return [line for lines in found for line in lines]
 
 
-def by_statement(
-    statements: Iterable[Statement | Start],
+def code_lines(
+    statement: Statement | Start,
     spelling: Spelling,
     speller: CodeSpeller,
     indent: int,
     tape: Callable[[PolynomialTape, CodeSpeller], list[str]] | None = None,
+) -> list[str]:
+    """The lines of one statement, without the comment above them."""
+    style = spelling.target.statements
+    match statement:
+        case Start():
+            return _start(statement, spelling, speller, indent)
+        case PolynomialTape():
+            assert tape is not None, "a tape stands only in configure"
+            return tape(statement, speller)
+        case Branch():
+            return _branch(statement, spelling, speller, indent)
+        case Dot():
+            value = _dot(statement, spelling)
+        case _:
+            value = speller.expression(statement.value)
+    pattern = style.local if statement.target.space == "local" else style.assign
+    return _assigned(pattern, statement.target, value, spelling, speller, indent)
+
+
+def commented(
+    statements: Sequence[Statement | Start],
+    codes: Sequence[list[str]],
+    target: Target,
+    indent: int,
     about: About = ANYTHING,
 ) -> list[list[str]]:
-    """The same, with the lines of each statement, and of the comment above it, by themselves."""
-    target = spelling.target
+    """The lines of each of some statements behind each other, with the comments above them."""
     found: list[list[str]] = []
     last, last_place = "", about.place
-    for statement in statements:
-        own = [""] if any(found) else []
+    for statement, own in zip(statements, codes, strict=True):
+        head = [""] if found else []
         if isinstance(statement, Start):
-            found.append(own + _start(statement, spelling, speller, indent))
+            found.append(head + own)
             last = ""
             continue
         place = listing.place(statement.origin)
         comment = "" if statement.comment == about.text else statement.comment
         comment = comment.removeprefix(about.prefix)
         why = listing.words("" if place == last_place else place, comment)
-        if comment != last or not own:
-            own += listing.comment(why, target, indent) if why else []
-        else:
-            own = []
+        if comment == last and head:
+            head = []
+        elif why:
+            head += listing.comment(why, target, indent)
         last, last_place = comment, place
-        if isinstance(statement, PolynomialTape):
-            assert tape is not None, "a tape stands only in configure"
-            found.append(own + tape(statement, speller))
-            continue
-        style = target.statements
-        if isinstance(statement, Branch):
-            found.append(own + _branch(statement, spelling, speller, indent))
-            continue
-        pattern = style.local if statement.target.space == "local" else style.assign
-        if isinstance(statement, Dot):
-            value = _dot(statement, spelling)
-        else:
-            value = speller.expression(statement.value)
-        found.append(own + _assigned(pattern, statement.target, value, spelling, speller, indent))
+        found.append(head + own)
     return found
 
 

@@ -82,8 +82,8 @@ def _parted(comment: str) -> tuple[str, str]:
     return (key, text) if colon and key.isidentifier() else ("", comment)
 
 
-def grouped(statements: Sequence[Statement]) -> list[tuple[str, Statement]]:
-    """Statements of configure with the key of each, those of a key together.
+def grouped(statements: Sequence[Statement]) -> list[tuple[str, int]]:
+    """Statements of configure by number with the key of each, those of a key together.
 
     A local value goes to what all that need it are parts of: what both `r1_w1` and `r1_w2` need
     is computed before either, in `r1`. Nothing reads a coefficient, so that nothing else matters.
@@ -106,7 +106,7 @@ def grouped(statements: Sequence[Statement]) -> list[tuple[str, Statement]]:
     for at in sorted(keys, key=lambda at: (_local(statements[at]) is not None, at)):
         for part in _parts(keys[at]):
             seen.setdefault(part, len(seen))
-    return [(keys[at], statements[at]) for at in sorted(keys, key=order)]
+    return [(keys[at], at) for at in sorted(keys, key=order)]
 
 
 def _parts(key: str) -> list[str]:

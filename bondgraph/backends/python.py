@@ -42,13 +42,12 @@ _TYPES = {"real": "float", "bool": "bool", "count": "int"}
 def files(
     program: Program,
     target: Target,
-    golden: Golden,
     tuned: Tuned = UNTUNED,
     bounds: Program | None = None,
     decides: bool = True,
 ) -> dict[str, object]:
-    """The holes of all templates of Python but those of `exact`; see `c.files`."""
-    whole, program = program, step_part(program)
+    """The holes of the templates of Python, as those of `c.files`."""
+    program = step_part(program)
     about = facts(program)
     spelling = Spelling(program, target)
     parts = [_Part(program, spelling)]
@@ -57,7 +56,6 @@ def files(
     found: dict[str, object] = {
         **_file(about, parts, target),
         **_declared(about, parts, target),
-        **Vectors(whole, Spelling(whole, target), golden).python(),
         **decision.python_holes(program, tuned, target),
         "noun": about.noun,
         "class_name": "Monitor",
@@ -68,6 +66,11 @@ def files(
     found["imports"] = _imports(parts, bool(found["decides"]))
     cores = [fill("python/core.py.j2", found | p.core()).rstrip("\n") for p in parts]
     return found | {"cores": cores}
+
+
+def vectors(program: Program, target: Target, golden: Golden) -> dict[str, object]:
+    """The holes of the templates of `tests` and of the example."""
+    return Vectors(program, Spelling(program, target), golden).python()
 
 
 def tests(
@@ -445,8 +448,7 @@ class _Part:
         speller = CodeSpeller(
             self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
         )
-        spaces = {ref.space for ref in reads((*block.first, *block.step))}
-        head = []
+        spaces, head = block.spaces, list[str]()
         if "coef" in spaces:
             head.append("            c = self._c")
         if "state" in spaces:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from bondgraph.backends import c, python
 from bondgraph.backends.facts import ABI, facts
-from bondgraph.backends.golden import Golden
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.members import samples
 from bondgraph.backends.spelling import Spelling
@@ -26,10 +25,8 @@ _KINDS = {"real": "{0}", "bool": "{0} != 0.0", "count": "{1}_whole({0})"}
 def runnable(program: Program) -> Runnable:
     """The code of a program of residuals or thresholds, with what is needed to run it."""
     about = facts(program)
-    values = {f.name: 1.0 if f.default is None else f.default for f in program.params}
-    none = Golden(values, (), ())  # nothing is tested here
     own, other = load("c"), load("python")
-    holes = c.files(program, own, none, decides=False)  # the monitor decides
+    holes = c.files(program, own, decides=False)  # the monitor decides
     files = {name: fill(f"c/model.{name}.j2", holes) for name in ("h", "c")}
     spelling = Spelling(program, other)
     return Runnable(
@@ -41,7 +38,7 @@ def runnable(program: Program) -> Runnable:
             Artifact(f"{about.stem}_batch.c", fill("c/batch.c.j2", holes | _batch(program, own))),
         ),
         f"{about.stem}_batch.c",
-        fill("python/model.py.j2", python.files(program, other, none, decides=False)),
+        fill("python/model.py.j2", python.files(program, other, decides=False)),
         tuple(spelling.params[f.name] for f in program.params),
         tuple(spelling.knowns[k.name] for k in program.knowns),
         tuple(spelling.residuals[r.name] for r in program.residuals),

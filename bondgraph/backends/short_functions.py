@@ -9,8 +9,8 @@ dynamic programming; where the calls alone are too many lines they are cut in tu
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby, takewhile
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence, Set
+from itertools import accumulate, groupby, takewhile
 from math import inf
 
 from bondgraph.text.tuples import NamedTuple
@@ -48,21 +48,22 @@ class Piece(NamedTuple):
             yield from (member,) if isinstance(member, int) else member.numbers()
 
 
-class _Way(NamedTuple):
-    """How a stretch to the end begins: what all its cuts cost, the first one, what is left then."""
-
-    cost: float
-    cut: _Cut | None
-    left: int
-
-
 class _Cut(NamedTuple):
-    start: int
+    """A stretch that can be a function: what it costs, the lines of its call."""
+
     end: int
     cost: float
     call: int
-    takes: tuple[str, ...]
-    gives: tuple[str, ...]
+
+
+class _Way(NamedTuple):
+    """How a stretch to the end begins: with what stands up to `end`, a function if that is more
+    than one statement. What all its cuts cost, and the lines that are left behind the first.
+    """
+
+    cost: float
+    end: int
+    left: int
 
 
 def pieces(steps: Sequence[Step], room: int, most: int) -> tuple[int | Piece, ...]:
@@ -129,7 +130,8 @@ def _cut(
         cuts = list(_chosen(steps, room, most, after))
         if not cuts:
             break
-        for start, end, _, _, takes, gives in reversed(cuts):
+        for start, end in reversed(cuts):
+            takes, gives = _handed(steps, start, end, after)
             members[start:end] = [Piece(tuple(members[start:end]), takes, gives)]
             steps[start:end] = [_called(steps[start:end], takes, gives)]
     return tuple(members)
@@ -167,7 +169,7 @@ def together(keys: Iterable[str]) -> str:
     return "_".join(column[0] for column in takewhile(lambda own: len({*own}) == 1, same))
 
 
-def _call(takes: Sequence[str], gives: Sequence[str]) -> int:
+def _call(takes: Collection[str], gives: Collection[str]) -> int:
     """The lines of a call, with those that declare what it gives if it is more than one value."""
     letters = 40 + sum(len(v) + 2 for v in (*takes, *gives))
     return 1 + letters // 90 + (len(gives) + 2 if len(gives) > 1 else 0)
@@ -175,32 +177,42 @@ def _call(takes: Sequence[str], gives: Sequence[str]) -> int:
 
 def _chosen(
     steps: Sequence[Step], room: int, most: int, after: frozenset[str]
-) -> Iterator[_Cut]:
+) -> Iterator[tuple[int, int]]:
     """The cheapest cuts that leave no more lines than there is room for, or else the fewest lines.
 
-    From the end: for each number of lines that are left the cheapest way to get there.
+    From the end: for each number of lines that are left the cheapest way to get there, where the
+    fewest lines that the statements before can be still fit in.
     """
     count = len(steps)
-    starts: list[list[_Cut]] = [[] for _ in steps]
-    for cut in _cuts(steps, most, after):
-        starts[cut.start].append(cut)
-    ways: list[dict[int, _Way]] = [{} for _ in range(count)] + [{0: _Way(0.0, None, 0)}]
+    starts = [list(cuts) for cuts in _cuts(steps, most, after)]
+    fewest = _fewest(steps, starts)
+    ways: list[dict[int, _Way]] = [{} for _ in range(count)] + [{0: _Way(0.0, count, 0)}]
     for at in range(count - 1, -1, -1):
-        lines = steps[at].lines
-        found = {left + lines: _Way(way.cost + _LINE * lines, None, left)
+        lines, price = steps[at].lines, _LINE * steps[at].lines
+        found = {left + lines: _Way(way.cost + price, at + 1, left)
                  for left, way in ways[at + 1].items()}  # fmt: skip
-        for cut in starts[at]:
-            for left, way in ways[cut.end].items():
-                cost, known = cut.cost + way.cost, found.get(left + cut.call)
+        for end, own, call in starts[at]:
+            for left, way in ways[end].items():
+                cost, known = own + way.cost, found.get(left + call)
                 if known is None or cost < known.cost:
-                    found[left + cut.call] = _Way(cost, cut, left)
-        ways[at] = _worthwhile(found, room)
+                    found[left + call] = _Way(cost, end, left)
+        ways[at] = _worthwhile(found, room - fewest[at])
     left, at = min(ways[0].items(), key=lambda item: (item[0] > room, item[1].cost))[0], 0
     while at < count:
-        _, chosen, left = ways[at][left]
-        if chosen is not None:
-            yield chosen
-        at = at + 1 if chosen is None else chosen.end
+        _, end, left = ways[at][left]
+        if end > at + 1:
+            yield at, end
+        at = end
+
+
+def _fewest(steps: Sequence[Step], starts: Sequence[Sequence[_Cut]]) -> list[int]:
+    """The fewest lines that the statements before each can be."""
+    found = [0, *accumulate(step.lines for step in steps)]
+    for at, step in enumerate(steps):
+        found[at + 1] = min(found[at + 1], found[at] + step.lines)
+        for end, _, call in starts[at]:
+            found[end] = min(found[end], found[at] + call)
+    return found
 
 
 def _worthwhile(ways: Mapping[int, _Way], room: int) -> dict[int, _Way]:
@@ -214,33 +226,36 @@ def _worthwhile(ways: Mapping[int, _Way], room: int) -> dict[int, _Way]:
     return found
 
 
-def _cuts(steps: Sequence[Step], most: int, after: frozenset[str]) -> Iterator[_Cut]:
-    """All stretches that can be a function, with what each costs."""
-    last: dict[str, int] = {}  # where a value is read for the last time
-    given: dict[str, int] = {}  # where it is computed
-    for at, step in enumerate(steps):
-        last |= dict.fromkeys(step.takes, at)
-        given |= dict.fromkeys(step.gives, at)
+def _cuts(
+    steps: Sequence[Step], most: int, after: frozenset[str]
+) -> Iterator[Iterator[_Cut]]:
+    """The stretches that can be a function, from each statement on."""
+    last = {v: at for at, step in enumerate(steps) for v in step.takes}  # where it is read last
     last |= dict.fromkeys(after, len(steps))
     ends = _ends(steps)
-    for start in sorted(ends):
-        lines, inside, taken = 0, dict[str, None](), set[str]()
-        for end in range(start + 1, len(steps) + 1):
-            step = steps[end - 1]
-            lines += step.lines
-            if lines > most:
-                break
-            taken |= {v for v in step.takes if v not in inside}
-            inside |= dict.fromkeys(step.gives)
-            if end not in ends or lines < _SHORTEST or end - start in (1, len(steps)):
-                continue
-            gives = tuple(v for v in inside if last.get(v, -1) >= end)
-            if len(taken) <= _MOST_TAKEN and len(gives) <= _MOST_GIVEN:
-                takes = tuple(sorted(taken, key=lambda v: (given.get(v, -1), v)))
-                call = _call(takes, gives)
-                if call < lines:
-                    cost = _cost(steps, start, end, len(takes), len(gives))
-                    yield _Cut(start, end, cost, call, takes, gives)
+    for start in range(len(steps)):
+        yield _from(steps, start, most, ends, last) if start in ends else iter(())
+
+
+def _from(
+    steps: Sequence[Step], start: int, most: int, ends: Container[int], last: Mapping[str, int]
+) -> Iterator[_Cut]:
+    """The stretches that begin with a statement."""
+    lines, inside, taken, keys = 0, set[str](), set[str](), set[str]()
+    gives: list[str] = []
+    for end in range(start + 1, len(steps) + 1):
+        step = steps[end - 1]
+        lines += step.lines
+        taken |= step.takes - inside
+        if lines > most or len(taken) > _MOST_TAKEN:
+            break
+        inside.update(step.gives)
+        keys.add(step.key)
+        gives = [v for v in (*gives, *step.gives) if last.get(v, -1) >= end]
+        if end not in ends or lines < _SHORTEST or end - start in (1, len(steps)):
+            continue
+        if len(gives) <= _MOST_GIVEN and (call := _call(taken, gives)) < lines:
+            yield _Cut(end, _cost(steps, start, end, keys, len(taken), len(gives)), call)
 
 
 def _ends(steps: Sequence[Step]) -> set[int]:
@@ -256,17 +271,18 @@ def _ends(steps: Sequence[Step]) -> set[int]:
     return found
 
 
-def _cost(steps: Sequence[Step], start: int, end: int, takes: int, gives: int) -> float:
-    keys = {step.key for step in steps[start:end]}
-    around = {steps[at].key for at in (start - 1, end) if 0 <= at < len(steps)}
+def _cost(
+    steps: Sequence[Step], start: int, end: int, keys: Set[str], takes: int, gives: int
+) -> float:
+    """What a stretch costs with these keys, which takes and gives so many values."""
+    before = steps[start - 1].key if start else ""
+    behind = steps[end].key if end < len(steps) else ""
     cost = takes + takes**2 / 16.0 + _EACH_GIVEN * max(0, gives - 1)
-    if len(keys) > 1 or keys <= {"", *around}:
-        named = keys - {""}
-        cost += _PRICE + _OTHER_KEY * max(0, len(named) - 1)
+    if len(keys) > 1 or steps[start].key in ("", before, behind):
+        named = len(keys) - ("" in keys)
+        cost += _PRICE + _OTHER_KEY * max(0, named - 1)
         cost += _NOTHING_GIVEN * (gives == 0 and not named)
-    for at in (start, end):
-        if 0 < at < len(steps):
-            before, after = steps[at - 1], steps[at]
-            if before.key and before.key == after.key:
-                cost += _SAME_KEY
+    for one, other in ((before, steps[start].key), (steps[end - 1].key, behind)):
+        if one and one == other:
+            cost += _SAME_KEY
     return cost

@@ -65,11 +65,9 @@ class Vectors:
         count = len(self.program.residuals)
         target = self.spelling.target
         stem = self.spelling.prefix.lower()
-        names = [f'"{r.name}",' for r in self.program.residuals]
         spoilt = [f"{str(s).lower()}," for s in self.spoilt()]
         reals = [m.name for m in self.samples if m.type == "real"]
         return {
-            "names": listing.table_lines(names, target, 4),
             "spoilt": listing.table_lines(spoilt, target, 4),
             "spoil": [f"    bad.{name} = ({stem}real)NAN;" for name in reals],
             "thresholds": [

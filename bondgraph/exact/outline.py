@@ -16,7 +16,6 @@ from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.text.tuples import NamedTuple
 
 _ARITHMETIC = frozenset({Op.SYM, Op.NUM, Op.ADD, Op.MUL})
-_MEMORY = frozenset({Op.DER, Op.INT})
 _DECIDED = frozenset({Op.FN, Op.ROOT, Op.CMP, Op.IF})
 
 
@@ -87,16 +86,29 @@ def rational(roots: Iterable[Expr]) -> bool:
 
 def highest_order(roots: Sequence[Expr], n: int = 1) -> int:
     """The highest derivative of any symbol that `n` coefficients of the roots ask for."""
-    return max((_highest(root, n) for root in roots), default=0)
+    return max(highest_orders(tuple(roots), n), default=0)
 
 
 @lru_cache(maxsize=1 << 14)
-def _highest(root: Expr, n: int) -> int:
-    _, inside, ops = outline(root)
-    if ops.isdisjoint(_MEMORY):
-        return n - 1 if inside else 0
-    need = plan(root, n)[1]
-    return max((need[v] for v in inside), default=1) - 1
+def highest_orders(roots: tuple[Expr, ...], n: int = 1) -> tuple[int, ...]:
+    """The same of each root; what they share is looked at once.
+
+    If a node has to give w coefficients, some symbol below it has to give max(w + above, least).
+    """
+    reach: dict[Expr, tuple[int, int]] = {}
+    for node in topological(roots):
+        inside = [reach[a] for a in node.args if a in reach]
+        if node.op is Op.SYM:
+            reach[node] = (0, 0)
+        elif inside:
+            above, least = max([a for a, _ in inside]), max([b for _, b in inside])
+            if node.op is Op.DER:
+                above += 1
+            elif node.op is Op.INT:  # asks for one less, and for one at least
+                above, least = above - 1, max(least, above + 1)
+            reach[node] = (above, least)
+    found = [reach.get(root, (-n, 1)) for root in roots]
+    return tuple([max(n + above, least) - 1 for above, least in found])
 
 
 def integral_depth(roots: Sequence[Expr]) -> int:

@@ -42,6 +42,7 @@ _SIZES = (_SMALL, _SMALL, _USUAL, _GREAT)
 _FULL_SIZE = 4  # points that are tried with signals of any size, before small ones only are
 _MODULAR = 6  # points that are tried in a prime field, before real ones are
 _LARGE = 4000  # coefficients of a trajectory that are many
+_HIGH = 8  # derivatives that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
 
@@ -409,9 +410,13 @@ class Plant:
         raise ExactUnavailable(self._reason(failure))
 
     def many(self, roots: Sequence[Expr], n: int, part: Assembly) -> bool:
-        """Whether a trajectory has so many coefficients that exponentials are tried first."""
+        """Whether a trajectory has so many coefficients that exponentials are tried first.
+
+        Only where the order is what makes them many: exponentials are what the inputs force, and
+        do not show what begins differently in machines that are alike.
+        """
         order = highest_order(roots, n)
-        large = order * part.count_of > _LARGE and not integral_depth(roots)
+        large = order > _HIGH and order * part.count_of > _LARGE and not integral_depth(roots)
         return large and self.rational(part, roots)
 
     def sample(

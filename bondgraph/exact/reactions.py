@@ -115,9 +115,11 @@ class Reactions:
         tried = [s for s in candidates if s not in but]
         if not tried or self._unmoved_nearby(expr, tried):
             return []
+        if len(tried) == 1:
+            return tried if self._moves_anywhere(expr, tried) else []
         try:
             alone = self.turns > 1 or _turns([expr], self.modes) > 1  # each in branches of its own
-            if len(tried) > (_FEW if alone else 1) and not self._moves_anywhere(expr, tried):
+            if not (alone and len(tried) <= _FEW) and not self._moves_anywhere(expr, tried):
                 return []
         except ExactUnavailable:
             pass  # so many faults at once leave no plant to speak of

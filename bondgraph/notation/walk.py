@@ -62,12 +62,12 @@ def references(value: tuple[object, ...]) -> list[Ref]:
     stack: list[object] = [value]
     while stack:
         node = stack.pop()
-        if isinstance(node, Ref):
+        if type(node) is Ref:
             found.append(node)
-        elif isinstance(node, Mode):
+        elif type(node) is Mode:
             found.append(Ref("known", node.name))
-        elif isinstance(node, tuple):  # of operands, or a node: both hold them from left to right
-            stack += node[::-1]
+        elif isinstance(node, tuple) and type(node) is not Const:
+            stack += node[::-1]  # of operands, or a node: both hold them from left to right
     return found
 
 

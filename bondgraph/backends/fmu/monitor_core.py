@@ -9,7 +9,6 @@ from bondgraph.backends import c
 from bondgraph.backends.facts import facts
 from bondgraph.backends.fmu.fmu_variables import Role, Type, Variable, Variables
 from bondgraph.backends.fmu.package import Core
-from bondgraph.backends.golden import Golden
 from bondgraph.backends.listing import place
 from bondgraph.backends.members import samples
 from bondgraph.backends.spelling import Spelling
@@ -150,9 +149,7 @@ def _part(
 
 def _files(program: Program, bounds: Program | None) -> tuple[Artifact, ...]:
     """The header and the code, as `compile --target c` writes them."""
-    values = {f.name: 1.0 if f.default is None else f.default for f in program.params}
-    none = Golden(values, (), ())  # no self-test goes with it
-    holes, file = c.files(program, load("c"), none, bounds=bounds), facts(program).file
+    holes, file = c.files(program, load("c"), bounds=bounds), facts(program).file
     return tuple(
         Artifact(f"{file}.{name}", fill(f"c/model.{name}.j2", holes)) for name in ("h", "c")
     )

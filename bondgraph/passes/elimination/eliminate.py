@@ -5,7 +5,7 @@ Most models take one elimination (`chaining`). What costs more is tried only whe
 
 from __future__ import annotations
 
-from bondgraph.exact.outline import highest_order
+from bondgraph.exact.outline import highest_order, highest_orders
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.residuals import Missing, ReducedSystem
 from bondgraph.passes.elimination.chaining import Chain, Strategy
@@ -68,7 +68,7 @@ def _eliminated(system: EquationSystem) -> ReducedSystem:
 
 def _order(result: ReducedSystem) -> int:
     """The highest derivatives of the relations, added up."""
-    return sum(highest_order([closing.expr]) for closing in result.closings)
+    return sum(highest_orders(tuple([closing.expr for closing in result.closings])))
 
 
 def _lacking(result: ReducedSystem) -> list[Missing]:

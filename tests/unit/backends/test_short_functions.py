@@ -74,7 +74,7 @@ def test_a_value_is_computed_where_all_that_need_it_are() -> None:
         local("w"), local("n", "w"), local("m", "w"),
         coef("r1_w1", "m"), coef("r2", "w"), coef("r1_w2", "m", "n"),
     ]  # fmt: skip
-    found = [(key, statement.target.name) for key, statement in grouped(run)]  # type: ignore[union-attr]
+    found = [(key, run[at].target.name) for key, at in grouped(run)]
     assert found == [
         ("", "w"), ("r1", "m"), ("r1_w1", "r1_w1_x"), ("r1_w2", "n"), ("r1_w2", "r1_w2_x"),
         ("r2", "r2_x"),

@@ -10,6 +10,8 @@ from bondgraph.algebra.implicit import invert
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions, branches
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
+from bondgraph.passes.relation.form import relations
+from tests.bench import families
 from tests.unit.passes.relations import compiled
 
 
@@ -129,3 +131,20 @@ def test_a_part_has_every_signal_that_its_relation_is_told() -> None:
         parts += cone.count_of < plant.assembly.count_of
     assert parts
     assert {"u", "R", "y"} <= set(c.signatures.signature("r1"))
+
+
+def test_machines_that_are_alike_begin_differently(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Wires of one resistance feed equal motors, of which most relations compare two.
+
+    Moved by the supply alone these would draw the same current, and no relation between two of
+    them would see the wire; but each begins as it likes, however large the plant is.
+    """
+    monkeypatch.setattr("bondgraph.exact.plant._LARGE", 1)
+    found = compiled(families.tree(32).removeprefix("bg 1\n"))
+    plant = Plant(found.graph)
+    exprs = [r.expr for r in relations(found.reduced, plant, 0).residuals]
+    seen = Reactions(plant, 0).sensed(exprs)
+    told = [{s.symbol.name for s in symbols(expr)} for expr in exprs]
+    names = [{s.symbol.name for s in own} for own in seen]
+    assert [k for k, own in enumerate(told) if "Rw" in own and "Rw" not in names[k]] == []
+    assert sum("Rw" in own for own in told) == 32
