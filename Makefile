@@ -92,7 +92,7 @@ edits: $(VENV)/dev.stamp ## 10 000 random edits through the language server, com
 
 update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model --costs > /dev/null || exit 1; done
-	$(BIN)/python -m pytest --update
+	$(BIN)/python -m pytest --update $(shell grep -rl --include='test_*.py' 'update: bool' tests)
 
 fuzz: $(VENV)/dev.stamp ## a million hostile models, and 800 000 scenarios, logs, journals, messages ..., by atheris; two hours or more, or MINUTES=... of each kind at a time
 	$(BIN)/python -m tests.fuzz.guided --campaign --jobs 2 $(if $(MINUTES),--minutes $(MINUTES))

@@ -950,7 +950,7 @@ class Compilation:
 
         limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
         words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
-        return Tuned(limits, words)
+        return Tuned(limits, words, own.shows, own.window)
 
     def tuned(self, tuning: Tuning) -> Compilation:
         """The same for the filter of a tuning, with its limits in the code.

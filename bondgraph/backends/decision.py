@@ -1,49 +1,68 @@
-"""What `diagnose` decides by: classes of faults with what sees them, and limits of a tuning."""
+"""What `diagnose` decides by: classes of faults, what sees them from which size on, and limits."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from math import ceil
+from math import ceil, floor, inf, log2
 
 from bondgraph.backends import listing
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.target import Target
 from bondgraph.ir.program import Program
-from bondgraph.ir.residual_limit import NEVER, OVERSHOOT, ROW, SHARE, ResidualLimit
+from bondgraph.ir.residual_limit import (
+    NEVER,
+    OVERSHOOT,
+    ROW,
+    SHARE,
+    ResidualLimit,
+    ShownSize,
+)
 from bondgraph.notation.dialect import digits
 from bondgraph.text.tuples import NamedTuple
 
 #: Rows that all residuals have to be quiet for, and that a class waits for after the last alarm.
 HOLD, SETTLED = 10, 2
+#: Sizes on board are whole eighths of an octave; so much is added to what is least, and what a
+#: residual has to be out for to be seen is counted from the sixteenth part on.
+EIGHTH, LEAST, FIRST = 2.0**0.125, 128, 0.0625
+#: Codes of sizes: the residual does not see the fault; it shows any size; it never is sure to.
+UNSEEN, ANY, NO_SIZE = 0, 0, 255
 
 
 class Tuned(NamedTuple):
-    """Limits by residual, of a tuning that `source` tells of; none without one."""
+    """What a tuning that `source` tells of knows by residual; nothing without one.
+
+    `limits`, and from which size on each fault `shows` in a `window` of seconds.
+    """
 
     limits: Mapping[str, ResidualLimit]
     source: str
+    shows: Mapping[str, Mapping[str, ShownSize]]
+    window: float
 
 
-UNTUNED = Tuned({}, "")
+UNTUNED = Tuned({}, "", {}, 0.0)
 
 
 class FaultClass(NamedTuple):
-    """Faults that the same residuals see, and the same ones show.
+    """Faults that the same residuals see, with codes of sizes by residual.
 
-    What `shows` a fault is moved by it for sure, if the fault is large enough: such a residual
-    that stays quiet speaks against it. What only `sees` it may be moved.
+    A residual that is out, so many eighths of an octave above a sixteenth of what makes it sure to
+    be, makes a fault so much larger than what is `least`; zero if it does not see the fault. One
+    that is quiet speaks against a fault of the size that it is `sure` to show, and above.
     """
 
     faults: tuple[str, ...]
-    sees: tuple[bool, ...]
-    shows: tuple[bool, ...]
+    least: tuple[int, ...]
+    sure: tuple[int, ...]
 
 
-def fault_classes(program: Program) -> tuple[FaultClass, ...]:
+def fault_classes(program: Program, tuned: Tuned = UNTUNED) -> tuple[FaultClass, ...]:
     """The classes of a program, in the order in which its residuals name them.
 
-    Where a machine has switches it depends on them what a residual sees: nothing shows for sure.
-    Nor does a residual that `step` never has, or cannot see the fault in at this sample rate.
+    Without a tuning a residual that sees a fault is taken to show any size of it. Not so where a
+    machine has switches, as it depends on them what a residual sees; nor does a residual that
+    `step` never has, or cannot see the fault in at this sample rate.
     """
     residuals = program.residuals
     switched = any(k.kind == "mode" for k in program.knowns)
@@ -58,14 +77,26 @@ def fault_classes(program: Program) -> tuple[FaultClass, ...]:
         if fault in entries:
             rows.setdefault(tuple(entries[fault]), []).append(fault)
     size = range(len(residuals))
-    return tuple(
-        FaultClass(
-            tuple(faults),
-            tuple(map({at for at, _ in row}.__contains__, size)),
-            tuple(map({at for at, sure in row if sure}.__contains__, size)),
-        )
-        for row, faults in rows.items()
-    )
+    found = []
+    for row, faults in rows.items():
+        sees = {at for at, _ in row}
+        if tuned.source:
+            sizes = [_of_class(faults, tuned.shows.get(r.name, {})) for r in residuals]
+        else:
+            sizes = [(1, ANY if (at, True) in row else NO_SIZE) for at in size]
+        codes = [own if at in sees else (UNSEEN, NO_SIZE) for at, own in enumerate(sizes)]
+        found.append(FaultClass(tuple(faults), *zip(*codes, strict=True)))
+    return tuple(found)
+
+
+def _of_class(faults: Sequence[str], shown: Mapping[str, ShownSize]) -> tuple[int, int]:
+    """The codes of one residual for any of some faults; both are on the safe side."""
+    known = [shown[f] for f in faults if f in shown]
+    least = min((size.least for size in known), default=0.0)
+    sure = max(size.sure for size in known) if len(known) == len(faults) else inf
+    low = floor(8.0 * log2(least)) + LEAST if least > 0.0 else 1
+    high = ceil(8.0 * log2(sure) - 8.0 * log2(FIRST)) + LEAST + 1 if 0.0 < sure < inf else NO_SIZE
+    return min(max(low, 1), NO_SIZE - 1), min(max(high, 1), NO_SIZE)
 
 
 def samples_a_row(program: Program) -> int:
@@ -76,14 +107,19 @@ def samples_a_row(program: Program) -> int:
 def c_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]:
     """The holes of diagnosis.h.j2 and diagnosis.c.j2."""
     prefix = snake(program.name).upper()
-    own = fault_classes(program)
+    own = fault_classes(program, tuned)
     names = [f'"{f}",' for c in own for f in c.faults]
     place = [f"{k}u," for k, c in enumerate(own) for _ in c.faults]
 
     def real(x: float) -> str:
         return f"{prefix}_CONSTANT({digits(x)})"
 
-    rows = [[f"{x}u" for x in _entries(c)] for c in own] or [["0u"] * len(program.residuals)]
+    none = [UNSEEN] * len(program.residuals)
+
+    def table(rows: list[Sequence[int]]) -> list[str]:
+        words = [[f"{x}u" for x in row] for row in rows or [none]]
+        return [line for row in words for line in _row(row, "{}", target)]
+
     return {
         **_both(program, tuned, real, target),
         "fault_count": len(place),
@@ -94,21 +130,21 @@ def c_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]
         "none_class": "" if own else " + 1",
         "fault_names": listing.table_lines(names or ['"",'], target, 4),
         "fault_class": listing.table_lines(place or ["0u,"], target, 4),
-        "signatures": [line for row in rows for line in _row(row, "{}", target)],
+        "least_sizes": table([c.least for c in own]),
+        "sure_sizes": table([c.sure for c in own]),
     }
 
 
 def python_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]:
     """The holes of diagnosis.py.j2."""
-    own = fault_classes(program)
+    own = fault_classes(program, tuned)
     return {
         **_both(program, tuned, digits, target),
         "class_names": [
             line for c in own for line in _row([f'"{f}"' for f in c.faults], "()", target)
         ],
-        "signatures": [
-            line for c in own for line in _row([str(x) for x in _entries(c)], "()", target)
-        ],
+        "least_sizes": [line for c in own for line in _row([*map(str, c.least)], "()", target)],
+        "sure_sizes": [line for c in own for line in _row([*map(str, c.sure)], "()", target)],
     }
 
 
@@ -127,16 +163,15 @@ def _both(
         "least": max(3, row // 10),
         "hold": HOLD,
         "settled": SETTLED,
+        "window": max(SETTLED * row, ceil(tuned.window * program.rate)),
+        "eighth": digits(EIGHTH),
+        "first_size": digits(FIRST),
+        "no_size": NO_SIZE,
         "overshoot": digits(OVERSHOOT),
         "share": digits(SHARE),
         "tuned": listing.harmless(tuned.source, target),
         "limits": [line for own in rows for line in _row(own, braces, target)],
     }
-
-
-def _entries(own: FaultClass) -> list[int]:
-    """1 where a residual may be moved, 3 where it is for sure."""
-    return [sees + 2 * shows for sees, shows in zip(own.sees, own.shows, strict=True)]
 
 
 def _row(items: Sequence[str], braces: str, target: Target) -> list[str]:

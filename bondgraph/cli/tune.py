@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
 _FASTEST = 0.4  # of the rate, rad: no filter has fewer samples to work with
 _LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
-_WINDOW = 40.0  # time constants of the default filter in which a fault has to show
+WINDOW = 40.0  # time constants of the default filter in which a fault has to show
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -78,7 +78,7 @@ def run(args: Namespace) -> int:
         compilation, engine, logs, times = _logs(args)
         usual = bandwidth_for(1.0 / engine.sample_time, max(map(len, logs), default=0))
         wanted = args.bandwidth or _wanted(engine, usual, logs)
-        window = args.window or _WINDOW / usual
+        window = args.window or WINDOW / usual
         found = []
         with console.progress_bar("tuning") as progress:
             for k, bandwidth in enumerate(wanted):

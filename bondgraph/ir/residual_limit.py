@@ -1,4 +1,5 @@
-"""How far a residual may be from zero while the machine is well, as code on board has it."""
+"""How far a residual may be from zero while the machine is well, as code on board has it, and from
+which size on it shows a fault."""
 
 from __future__ import annotations
 
@@ -22,6 +23,17 @@ class ResidualLimit(NamedTuple):
     drift: float
     height: float
     bound: float
+
+
+class ShownSize(NamedTuple):
+    """From which size on a residual shows a fault: it `least` may go into alarm, it is `sure` to.
+
+    Beside the smallest size with which the fault is sure to show in any residual. Infinite where
+    the residual never did.
+    """
+
+    least: float
+    sure: float
 
 
 #: That of a residual of which nothing is known: nothing is too far.

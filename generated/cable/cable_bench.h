@@ -175,7 +175,7 @@ typedef enum cable_bench_state {
 
 typedef enum cable_bench_candidate {
     CABLE_BENCH_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    CABLE_BENCH_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    CABLE_BENCH_SMALL,          /* a residual is quiet that shows so large a fault */
     CABLE_BENCH_LIKELY
 } cable_bench_candidate;
 
@@ -188,6 +188,7 @@ typedef struct cable_bench_diagnosis {
     uint32_t row;    /* samples between two rows: CABLE_BENCH_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until cable_bench_clear */
 
     /* for you to read */
@@ -201,6 +202,7 @@ typedef struct cable_bench_diagnosis {
     cable_bench_real above[CABLE_BENCH_RESIDUALS];
     cable_bench_real below[CABLE_BENCH_RESIDUALS];
     cable_bench_real louder[CABLE_BENCH_RESIDUALS];
+    cable_bench_real peak[CABLE_BENCH_RESIDUALS];
     uint32_t streak[CABLE_BENCH_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

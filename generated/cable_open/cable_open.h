@@ -175,7 +175,7 @@ typedef enum cable_open_state {
 
 typedef enum cable_open_candidate {
     CABLE_OPEN_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    CABLE_OPEN_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    CABLE_OPEN_SMALL,          /* a residual is quiet that shows so large a fault */
     CABLE_OPEN_LIKELY
 } cable_open_candidate;
 
@@ -188,6 +188,7 @@ typedef struct cable_open_diagnosis {
     uint32_t row;    /* samples between two rows: CABLE_OPEN_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until cable_open_clear */
 
     /* for you to read */
@@ -201,6 +202,7 @@ typedef struct cable_open_diagnosis {
     cable_open_real above[CABLE_OPEN_RESIDUALS];
     cable_open_real below[CABLE_OPEN_RESIDUALS];
     cable_open_real louder[CABLE_OPEN_RESIDUALS];
+    cable_open_real peak[CABLE_OPEN_RESIDUALS];
     uint32_t streak[CABLE_OPEN_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -191,7 +191,7 @@ typedef enum chassis_bench_state {
 
 typedef enum chassis_bench_candidate {
     CHASSIS_BENCH_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    CHASSIS_BENCH_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    CHASSIS_BENCH_SMALL,          /* a residual is quiet that shows so large a fault */
     CHASSIS_BENCH_LIKELY
 } chassis_bench_candidate;
 
@@ -204,6 +204,7 @@ typedef struct chassis_bench_diagnosis {
     uint32_t row;    /* samples between two rows: CHASSIS_BENCH_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until chassis_bench_clear */
 
     /* for you to read */
@@ -217,6 +218,7 @@ typedef struct chassis_bench_diagnosis {
     chassis_bench_real above[CHASSIS_BENCH_RESIDUALS];
     chassis_bench_real below[CHASSIS_BENCH_RESIDUALS];
     chassis_bench_real louder[CHASSIS_BENCH_RESIDUALS];
+    chassis_bench_real peak[CHASSIS_BENCH_RESIDUALS];
     uint32_t streak[CHASSIS_BENCH_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -258,7 +258,7 @@ typedef enum motor_state {
 
 typedef enum motor_candidate {
     MOTOR_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    MOTOR_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    MOTOR_SMALL,          /* a residual is quiet that shows so large a fault */
     MOTOR_LIKELY
 } motor_candidate;
 
@@ -271,6 +271,7 @@ typedef struct motor_diagnosis {
     uint32_t row;    /* samples between two rows: MOTOR_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until motor_clear */
 
     /* for you to read */
@@ -284,6 +285,7 @@ typedef struct motor_diagnosis {
     motor_real above[MOTOR_RESIDUALS];
     motor_real below[MOTOR_RESIDUALS];
     motor_real louder[MOTOR_RESIDUALS];
+    motor_real peak[MOTOR_RESIDUALS];
     uint32_t streak[MOTOR_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

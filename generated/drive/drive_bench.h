@@ -349,7 +349,7 @@ typedef enum drive_bench_state {
 
 typedef enum drive_bench_candidate {
     DRIVE_BENCH_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    DRIVE_BENCH_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    DRIVE_BENCH_SMALL,          /* a residual is quiet that shows so large a fault */
     DRIVE_BENCH_LIKELY
 } drive_bench_candidate;
 
@@ -362,6 +362,7 @@ typedef struct drive_bench_diagnosis {
     uint32_t row;    /* samples between two rows: DRIVE_BENCH_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until drive_bench_clear */
 
     /* for you to read */
@@ -375,6 +376,7 @@ typedef struct drive_bench_diagnosis {
     drive_bench_real above[DRIVE_BENCH_RESIDUALS];
     drive_bench_real below[DRIVE_BENCH_RESIDUALS];
     drive_bench_real louder[DRIVE_BENCH_RESIDUALS];
+    drive_bench_real peak[DRIVE_BENCH_RESIDUALS];
     uint32_t streak[DRIVE_BENCH_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

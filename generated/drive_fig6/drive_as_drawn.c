@@ -1606,11 +1606,21 @@ const char drive_as_drawn_residual_name[DRIVE_AS_DRAWN_RESIDUALS][3] = {
     "r1", "r2",
 };
 
-/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
-static const uint8_t signature[DRIVE_AS_DRAWN_CLASSES][DRIVE_AS_DRAWN_RESIDUALS] = {
-    {3u, 3u},
-    {3u, 0u},
-    {3u, 1u},
+/*
+ * Signatures, as sizes of faults in eighths of an octave. A residual in alarm makes a fault so much
+ * larger than what is least here as it is out; 0: it does not see the faults of the class.
+ */
+static const uint8_t least_size[DRIVE_AS_DRAWN_CLASSES][DRIVE_AS_DRAWN_RESIDUALS] = {
+    {1u, 1u},
+    {1u, 0u},
+    {1u, 1u},
+};
+
+/* A residual is sure to show a fault of this size; 255: of no size. */
+static const uint8_t sure_size[DRIVE_AS_DRAWN_CLASSES][DRIVE_AS_DRAWN_RESIDUALS] = {
+    {0u, 0u},
+    {0u, 255u},
+    {0u, 255u},
 };
 
 #define NEVER REAL(1e30) /* a limit that nothing exceeds */
@@ -1671,6 +1681,18 @@ static bool is_within(const drive_as_drawn_limit *limit, real value, real bound)
     return excess(value - limit->mean, bound) <= limit->level;
 }
 
+/* The peak of residual k since it went into alarm, beside what is sure to be one. */
+static void remember_peak(
+    drive_as_drawn_diagnosis *d, const drive_as_drawn_limit *limit, int k, real out, real bound)
+{
+    const real over = out - limit->level;
+    const real sure = limit->level + bound + bound;
+
+    if (over > d->peak[k] * sure && sure > REAL(0.0)) {
+        d->peak[k] = over / sure;
+    }
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     drive_as_drawn_diagnosis *d, const drive_as_drawn_limit *limit, int k, real value, real bound, bool row)
@@ -1684,6 +1706,7 @@ static bool watch(
     }
     if (d->state[k] == DRIVE_AS_DRAWN_ALARM) {
         d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        remember_peak(d, limit, k, out, bound);
         if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
             d->quiet = 0u;
         }
@@ -1696,24 +1719,62 @@ static bool watch(
     }
     d->state[k] = DRIVE_AS_DRAWN_ALARM;
     d->since[k] = 0u;
+    d->peak[k] = REAL(0.0);
+    remember_peak(d, limit, k, out, bound);
     return true;
 }
 
-/* What is left of a class of faults. */
-static drive_as_drawn_candidate left_of(const drive_as_drawn_diagnosis *d, const uint8_t *own)
+/* A peak in eighths of an octave above a sixteenth of what is sure to be an alarm. */
+static int eighths(real peak)
 {
-    drive_as_drawn_candidate found = DRIVE_AS_DRAWN_LIKELY;
+    real top = REAL(0.0625);
+    int n = 0;
+
+    while (n < 255 && peak >= top) {
+        top *= REAL(1.0905077326652577);
+        ++n;
+    }
+    return n;
+}
+
+/* How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out. */
+static int size_of(const drive_as_drawn_diagnosis *d, int c)
+{
+    int size = 0;
     int k;
 
     for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
-        if (d->state[k] == DRIVE_AS_DRAWN_ALARM && own[k] == 0u) {
-            return DRIVE_AS_DRAWN_RULED_OUT;
-        }
-        if (d->state[k] == DRIVE_AS_DRAWN_HEALTHY && own[k] == 3u) {
-            found = DRIVE_AS_DRAWN_SMALL;
+        if (d->state[k] == DRIVE_AS_DRAWN_ALARM) {
+            const int n = eighths(d->peak[k]);
+
+            if (least_size[c][k] == 0u) {
+                return -1;
+            }
+            if (n > 0 && n + (int)least_size[c][k] > size) {
+                size = n + (int)least_size[c][k];
+            }
         }
     }
-    return found;
+    return size;
+}
+
+/* What is left of the faults of class c. */
+static drive_as_drawn_candidate left_of(const drive_as_drawn_diagnosis *d, int c)
+{
+    const int size = size_of(d, c);
+    int k;
+
+    if (size < 0) {
+        return DRIVE_AS_DRAWN_RULED_OUT;
+    }
+    for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS && d->settled >= d->window; ++k) {
+        const int sure = (int)sure_size[c][k];
+
+        if (d->state[k] == DRIVE_AS_DRAWN_HEALTHY && sure != 255 && sure <= size) {
+            return DRIVE_AS_DRAWN_SMALL;
+        }
+    }
+    return DRIVE_AS_DRAWN_LIKELY;
 }
 
 /* Which classes of faults the residuals leave, and the one if it is one. */
@@ -1724,7 +1785,7 @@ static void judge(drive_as_drawn_diagnosis *d)
 
     d->fault_class = DRIVE_AS_DRAWN_UNKNOWN;
     for (c = 0; c < DRIVE_AS_DRAWN_CLASSES; ++c) {
-        const drive_as_drawn_candidate left = left_of(d, signature[c]);
+        const drive_as_drawn_candidate left = left_of(d, c);
 
         d->candidate[c] = (uint8_t)left;
         if (left == DRIVE_AS_DRAWN_LIKELY) {
@@ -1760,6 +1821,7 @@ void drive_as_drawn_clear(drive_as_drawn_diagnosis *diagnosis)
             diagnosis->state[k] = DRIVE_AS_DRAWN_HEALTHY;
         }
         diagnosis->since[k] = 0u;
+        diagnosis->peak[k] = REAL(0.0);
         forget_sums(diagnosis, k);
     }
     for (k = 0; k < DRIVE_AS_DRAWN_CLASSES; ++k) {
@@ -1778,6 +1840,7 @@ void drive_as_drawn_diagnosis_reset(drive_as_drawn_diagnosis *diagnosis)
     diagnosis->row = DRIVE_AS_DRAWN_ROW;
     diagnosis->least = 15u;
     diagnosis->hold = 10u * DRIVE_AS_DRAWN_ROW;
+    diagnosis->window = 300u;
     diagnosis->latch = false;
     diagnosis->tick = 0u;
     for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {

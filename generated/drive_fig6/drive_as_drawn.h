@@ -392,7 +392,7 @@ typedef enum drive_as_drawn_state {
 
 typedef enum drive_as_drawn_candidate {
     DRIVE_AS_DRAWN_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    DRIVE_AS_DRAWN_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    DRIVE_AS_DRAWN_SMALL,          /* a residual is quiet that shows so large a fault */
     DRIVE_AS_DRAWN_LIKELY
 } drive_as_drawn_candidate;
 
@@ -405,6 +405,7 @@ typedef struct drive_as_drawn_diagnosis {
     uint32_t row;    /* samples between two rows: DRIVE_AS_DRAWN_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until drive_as_drawn_clear */
 
     /* for you to read */
@@ -418,6 +419,7 @@ typedef struct drive_as_drawn_diagnosis {
     drive_as_drawn_real above[DRIVE_AS_DRAWN_RESIDUALS];
     drive_as_drawn_real below[DRIVE_AS_DRAWN_RESIDUALS];
     drive_as_drawn_real louder[DRIVE_AS_DRAWN_RESIDUALS];
+    drive_as_drawn_real peak[DRIVE_AS_DRAWN_RESIDUALS];
     uint32_t streak[DRIVE_AS_DRAWN_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

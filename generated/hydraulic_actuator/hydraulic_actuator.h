@@ -257,7 +257,7 @@ typedef enum hydraulic_actuator_state {
 
 typedef enum hydraulic_actuator_candidate {
     HYDRAULIC_ACTUATOR_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    HYDRAULIC_ACTUATOR_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    HYDRAULIC_ACTUATOR_SMALL,          /* a residual is quiet that shows so large a fault */
     HYDRAULIC_ACTUATOR_LIKELY
 } hydraulic_actuator_candidate;
 
@@ -270,6 +270,7 @@ typedef struct hydraulic_actuator_diagnosis {
     uint32_t row;    /* samples between two rows: HYDRAULIC_ACTUATOR_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until hydraulic_actuator_clear */
 
     /* for you to read */
@@ -283,6 +284,7 @@ typedef struct hydraulic_actuator_diagnosis {
     hydraulic_actuator_real above[HYDRAULIC_ACTUATOR_RESIDUALS];
     hydraulic_actuator_real below[HYDRAULIC_ACTUATOR_RESIDUALS];
     hydraulic_actuator_real louder[HYDRAULIC_ACTUATOR_RESIDUALS];
+    hydraulic_actuator_real peak[HYDRAULIC_ACTUATOR_RESIDUALS];
     uint32_t streak[HYDRAULIC_ACTUATOR_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

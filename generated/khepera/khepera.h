@@ -494,7 +494,7 @@ typedef enum khepera_state {
 
 typedef enum khepera_candidate {
     KHEPERA_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    KHEPERA_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    KHEPERA_SMALL,          /* a residual is quiet that shows so large a fault */
     KHEPERA_LIKELY
 } khepera_candidate;
 
@@ -507,6 +507,7 @@ typedef struct khepera_diagnosis {
     uint32_t row;    /* samples between two rows: KHEPERA_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until khepera_clear */
 
     /* for you to read */
@@ -520,6 +521,7 @@ typedef struct khepera_diagnosis {
     khepera_real above[KHEPERA_RESIDUALS];
     khepera_real below[KHEPERA_RESIDUALS];
     khepera_real louder[KHEPERA_RESIDUALS];
+    khepera_real peak[KHEPERA_RESIDUALS];
     uint32_t streak[KHEPERA_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

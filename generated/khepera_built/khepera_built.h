@@ -519,7 +519,7 @@ typedef enum khepera_built_state {
 
 typedef enum khepera_built_candidate {
     KHEPERA_BUILT_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    KHEPERA_BUILT_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    KHEPERA_BUILT_SMALL,          /* a residual is quiet that shows so large a fault */
     KHEPERA_BUILT_LIKELY
 } khepera_built_candidate;
 
@@ -532,6 +532,7 @@ typedef struct khepera_built_diagnosis {
     uint32_t row;    /* samples between two rows: KHEPERA_BUILT_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until khepera_built_clear */
 
     /* for you to read */
@@ -545,6 +546,7 @@ typedef struct khepera_built_diagnosis {
     khepera_built_real above[KHEPERA_BUILT_RESIDUALS];
     khepera_built_real below[KHEPERA_BUILT_RESIDUALS];
     khepera_built_real louder[KHEPERA_BUILT_RESIDUALS];
+    khepera_built_real peak[KHEPERA_BUILT_RESIDUALS];
     uint32_t streak[KHEPERA_BUILT_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

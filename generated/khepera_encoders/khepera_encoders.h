@@ -757,7 +757,7 @@ typedef enum khepera_encoders_state {
 
 typedef enum khepera_encoders_candidate {
     KHEPERA_ENCODERS_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    KHEPERA_ENCODERS_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    KHEPERA_ENCODERS_SMALL,          /* a residual is quiet that shows so large a fault */
     KHEPERA_ENCODERS_LIKELY
 } khepera_encoders_candidate;
 
@@ -770,6 +770,7 @@ typedef struct khepera_encoders_diagnosis {
     uint32_t row;    /* samples between two rows: KHEPERA_ENCODERS_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until khepera_encoders_clear */
 
     /* for you to read */
@@ -783,6 +784,7 @@ typedef struct khepera_encoders_diagnosis {
     khepera_encoders_real above[KHEPERA_ENCODERS_RESIDUALS];
     khepera_encoders_real below[KHEPERA_ENCODERS_RESIDUALS];
     khepera_encoders_real louder[KHEPERA_ENCODERS_RESIDUALS];
+    khepera_encoders_real peak[KHEPERA_ENCODERS_RESIDUALS];
     uint32_t streak[KHEPERA_ENCODERS_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -522,7 +522,7 @@ typedef enum khepera_plausible_state {
 
 typedef enum khepera_plausible_candidate {
     KHEPERA_PLAUSIBLE_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    KHEPERA_PLAUSIBLE_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    KHEPERA_PLAUSIBLE_SMALL,          /* a residual is quiet that shows so large a fault */
     KHEPERA_PLAUSIBLE_LIKELY
 } khepera_plausible_candidate;
 
@@ -535,6 +535,7 @@ typedef struct khepera_plausible_diagnosis {
     uint32_t row;    /* samples between two rows: KHEPERA_PLAUSIBLE_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until khepera_plausible_clear */
 
     /* for you to read */
@@ -548,6 +549,7 @@ typedef struct khepera_plausible_diagnosis {
     khepera_plausible_real above[KHEPERA_PLAUSIBLE_RESIDUALS];
     khepera_plausible_real below[KHEPERA_PLAUSIBLE_RESIDUALS];
     khepera_plausible_real louder[KHEPERA_PLAUSIBLE_RESIDUALS];
+    khepera_plausible_real peak[KHEPERA_PLAUSIBLE_RESIDUALS];
     uint32_t streak[KHEPERA_PLAUSIBLE_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -268,7 +268,7 @@ typedef enum microphone_state {
 
 typedef enum microphone_candidate {
     MICROPHONE_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    MICROPHONE_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    MICROPHONE_SMALL,          /* a residual is quiet that shows so large a fault */
     MICROPHONE_LIKELY
 } microphone_candidate;
 
@@ -281,6 +281,7 @@ typedef struct microphone_diagnosis {
     uint32_t row;    /* samples between two rows: MICROPHONE_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until microphone_clear */
 
     /* for you to read */
@@ -294,6 +295,7 @@ typedef struct microphone_diagnosis {
     microphone_real above[MICROPHONE_RESIDUALS];
     microphone_real below[MICROPHONE_RESIDUALS];
     microphone_real louder[MICROPHONE_RESIDUALS];
+    microphone_real peak[MICROPHONE_RESIDUALS];
     uint32_t streak[MICROPHONE_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

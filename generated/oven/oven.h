@@ -264,7 +264,7 @@ typedef enum oven_state {
 
 typedef enum oven_candidate {
     OVEN_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    OVEN_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    OVEN_SMALL,          /* a residual is quiet that shows so large a fault */
     OVEN_LIKELY
 } oven_candidate;
 
@@ -277,6 +277,7 @@ typedef struct oven_diagnosis {
     uint32_t row;    /* samples between two rows: OVEN_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until oven_clear */
 
     /* for you to read */
@@ -290,6 +291,7 @@ typedef struct oven_diagnosis {
     oven_real above[OVEN_RESIDUALS];
     oven_real below[OVEN_RESIDUALS];
     oven_real louder[OVEN_RESIDUALS];
+    oven_real peak[OVEN_RESIDUALS];
     uint32_t streak[OVEN_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

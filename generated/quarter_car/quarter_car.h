@@ -249,7 +249,7 @@ typedef enum quarter_car_state {
 
 typedef enum quarter_car_candidate {
     QUARTER_CAR_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    QUARTER_CAR_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    QUARTER_CAR_SMALL,          /* a residual is quiet that shows so large a fault */
     QUARTER_CAR_LIKELY
 } quarter_car_candidate;
 
@@ -262,6 +262,7 @@ typedef struct quarter_car_diagnosis {
     uint32_t row;    /* samples between two rows: QUARTER_CAR_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until quarter_car_clear */
 
     /* for you to read */
@@ -275,6 +276,7 @@ typedef struct quarter_car_diagnosis {
     quarter_car_real above[QUARTER_CAR_RESIDUALS];
     quarter_car_real below[QUARTER_CAR_RESIDUALS];
     quarter_car_real louder[QUARTER_CAR_RESIDUALS];
+    quarter_car_real peak[QUARTER_CAR_RESIDUALS];
     uint32_t streak[QUARTER_CAR_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -196,7 +196,7 @@ typedef enum rc_loop_state {
 
 typedef enum rc_loop_candidate {
     RC_LOOP_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    RC_LOOP_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    RC_LOOP_SMALL,          /* a residual is quiet that shows so large a fault */
     RC_LOOP_LIKELY
 } rc_loop_candidate;
 
@@ -209,6 +209,7 @@ typedef struct rc_loop_diagnosis {
     uint32_t row;    /* samples between two rows: RC_LOOP_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until rc_loop_clear */
 
     /* for you to read */
@@ -222,6 +223,7 @@ typedef struct rc_loop_diagnosis {
     rc_loop_real above[RC_LOOP_RESIDUALS];
     rc_loop_real below[RC_LOOP_RESIDUALS];
     rc_loop_real louder[RC_LOOP_RESIDUALS];
+    rc_loop_real peak[RC_LOOP_RESIDUALS];
     uint32_t streak[RC_LOOP_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -301,11 +301,18 @@ CLASSES: tuple[tuple[str, ...], ...] = (
     ("Rab", "Rca", "Ca", "Cc", "ua", "uc"),
     ("Rbc",),
 )
-#: Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure.
-_SIGNATURES: tuple[tuple[int, ...], ...] = (
-    (3, 0),
-    (3, 3),
-    (0, 3),
+#: Signatures, as sizes of faults in eighths of an octave. A residual in alarm makes a fault so much
+#: larger than what is least here as it is out; 0: it does not see the faults of the class.
+_LEAST_SIZES: tuple[tuple[int, ...], ...] = (
+    (1, 0),
+    (1, 1),
+    (0, 1),
+)
+#: A residual is sure to show a fault of this size; 255: of no size.
+_SURE_SIZES: tuple[tuple[int, ...], ...] = (
+    (0, 255),
+    (0, 0),
+    (255, 0),
 )
 #: Names of the residuals.
 RESIDUALS = (
@@ -342,10 +349,10 @@ class Diagnosis:
     limits: one for each residual; latch: whether an alarm stays until `clear`. By residual, `state`
     is BLIND (it has no value), HEALTHY or ALARM, and `since` the samples since it went into alarm.
     By class of faults, `candidate` is RULED_OUT (a residual is in alarm that does not see it),
-    SMALL (a residual is quiet that would show it, were it large enough) or LIKELY. `fault_class` is
-    the class that is left, None if it is none or more than one. `row`, `least` and `hold` may be
-    set: samples between two rows, that are out before a residual is in alarm, and that all have
-    to be quiet for before the alarm is over.
+    SMALL (a residual is quiet that shows so large a fault) or LIKELY. `fault_class` is the class
+    that is left, None if it is none or more than one. `row`, `least`, `hold` and `window` may be
+    set: samples between two rows, that are out before a residual is in alarm, that all have to be
+    quiet for before the alarm is over, and one to speak against a fault.
     """
 
     def __init__(
@@ -353,6 +360,7 @@ class Diagnosis:
     ) -> None:
         self.limits, self.latch = tuple(limits), latch
         self.row, self.least, self.hold = ROW, 15, 10 * ROW
+        self.window = 300
         self.reset()
 
     def reset(self) -> None:
@@ -368,6 +376,7 @@ class Diagnosis:
         self.candidate = [RULED_OUT] * len(CLASSES)
         self.fault_class: int | None = None
         self._sums = [[0.0, 0.0, 0.0] for _ in RESIDUALS]  # above, below, louder
+        self._peak = [0.0] * len(RESIDUALS)
         self._streak = [0] * len(RESIDUALS)
         self._quiet = self._settled = 0
 
@@ -412,6 +421,7 @@ class Diagnosis:
         high = row and self._add_row(k, off, out, bound)
         if self.state[k] == ALARM:
             self.since[k] += 1
+            self._remember_peak(k, out, bound)
             above, below, louder = self._sums[k]
             if not out < 0.5 * limit.level or above + below + louder > 0.0:
                 self._quiet = 0
@@ -422,7 +432,16 @@ class Diagnosis:
             return False
         self.state[k] = ALARM
         self.since[k] = 0
+        self._peak[k] = 0.0
+        self._remember_peak(k, out, bound)
         return True
+
+    def _remember_peak(self, k: int, out: float, bound: float) -> None:
+        """The peak of residual k since it went into alarm, beside what is sure to be one."""
+        level = self.limits[k].level
+        over, sure = out - level, level + bound + bound
+        if over > self._peak[k] * sure and sure > 0.0:
+            self._peak[k] = over / sure
 
     def _add_row(self, k: int, off: float, out: float, bound: float) -> bool:
         """One row more of residual k; whether a sum is too high."""
@@ -444,19 +463,33 @@ class Diagnosis:
 
     def _judge(self) -> None:
         """Which classes of faults the residuals leave, and the one if it is one."""
-        self.candidate = [self._left(own) for own in _SIGNATURES]
+        peaks = [_eighths(x) if s == ALARM else -1 for x, s in zip(self._peak, self.state)]
+        self.candidate = [self._left(c, peaks) for c in range(len(CLASSES))]
         one = self.candidate.count(LIKELY) == 1 and self._settled >= 2 * self.row
         self.fault_class = self.candidate.index(LIKELY) if one else None
 
-    def _left(self, own: Sequence[int]) -> int:
-        """What is left of a class of faults."""
-        found = LIKELY
-        for state, entry in zip(self.state, own, strict=True):
-            if state == ALARM and entry == 0:
+    def _left(self, c: int, peaks: Sequence[int]) -> int:
+        """What is left of the faults of class c; peaks are -1 where there is no alarm."""
+        size = 0
+        for least, peak in zip(_LEAST_SIZES[c], peaks, strict=True):
+            if peak >= 0 and least == 0:
                 return RULED_OUT
-            if state == HEALTHY and entry == 3:
-                found = SMALL
-        return found
+            if peak > 0:
+                size = max(size, peak + least)
+        if self._settled >= self.window:
+            for sure, state in zip(_SURE_SIZES[c], self.state, strict=True):
+                if state == HEALTHY and sure != 255 and sure <= size:
+                    return SMALL
+        return LIKELY
+
+
+def _eighths(peak: float) -> int:
+    """A peak in eighths of an octave above a sixteenth of what is sure to be an alarm."""
+    top, n = 0.0625, 0
+    while n < 255 and peak >= top:
+        top *= 1.0905077326652577
+        n += 1
+    return n
 
 
 def _kept(total: float, height: float) -> float:

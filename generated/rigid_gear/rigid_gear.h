@@ -251,7 +251,7 @@ typedef enum rigid_gear_state {
 
 typedef enum rigid_gear_candidate {
     RIGID_GEAR_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    RIGID_GEAR_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    RIGID_GEAR_SMALL,          /* a residual is quiet that shows so large a fault */
     RIGID_GEAR_LIKELY
 } rigid_gear_candidate;
 
@@ -264,6 +264,7 @@ typedef struct rigid_gear_diagnosis {
     uint32_t row;    /* samples between two rows: RIGID_GEAR_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until rigid_gear_clear */
 
     /* for you to read */
@@ -277,6 +278,7 @@ typedef struct rigid_gear_diagnosis {
     rigid_gear_real above[RIGID_GEAR_RESIDUALS];
     rigid_gear_real below[RIGID_GEAR_RESIDUALS];
     rigid_gear_real louder[RIGID_GEAR_RESIDUALS];
+    rigid_gear_real peak[RIGID_GEAR_RESIDUALS];
     uint32_t streak[RIGID_GEAR_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -692,9 +692,17 @@ const char slider_crank_residual_name[SLIDER_CRANK_RESIDUALS][3] = {
     "r1",
 };
 
-/* Signatures: 1 where a residual may be moved by the faults of a class, 3 where it is for sure. */
-static const uint8_t signature[SLIDER_CRANK_CLASSES][SLIDER_CRANK_RESIDUALS] = {
-    {3u},
+/*
+ * Signatures, as sizes of faults in eighths of an octave. A residual in alarm makes a fault so much
+ * larger than what is least here as it is out; 0: it does not see the faults of the class.
+ */
+static const uint8_t least_size[SLIDER_CRANK_CLASSES][SLIDER_CRANK_RESIDUALS] = {
+    {1u},
+};
+
+/* A residual is sure to show a fault of this size; 255: of no size. */
+static const uint8_t sure_size[SLIDER_CRANK_CLASSES][SLIDER_CRANK_RESIDUALS] = {
+    {0u},
 };
 
 #define NEVER REAL(1e30) /* a limit that nothing exceeds */
@@ -755,6 +763,18 @@ static bool is_within(const slider_crank_limit *limit, real value, real bound)
     return excess(value - limit->mean, bound) <= limit->level;
 }
 
+/* The peak of residual k since it went into alarm, beside what is sure to be one. */
+static void remember_peak(
+    slider_crank_diagnosis *d, const slider_crank_limit *limit, int k, real out, real bound)
+{
+    const real over = out - limit->level;
+    const real sure = limit->level + bound + bound;
+
+    if (over > d->peak[k] * sure && sure > REAL(0.0)) {
+        d->peak[k] = over / sure;
+    }
+}
+
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     slider_crank_diagnosis *d, const slider_crank_limit *limit, int k, real value, real bound, bool row)
@@ -768,6 +788,7 @@ static bool watch(
     }
     if (d->state[k] == SLIDER_CRANK_ALARM) {
         d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        remember_peak(d, limit, k, out, bound);
         if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
             d->quiet = 0u;
         }
@@ -780,24 +801,62 @@ static bool watch(
     }
     d->state[k] = SLIDER_CRANK_ALARM;
     d->since[k] = 0u;
+    d->peak[k] = REAL(0.0);
+    remember_peak(d, limit, k, out, bound);
     return true;
 }
 
-/* What is left of a class of faults. */
-static slider_crank_candidate left_of(const slider_crank_diagnosis *d, const uint8_t *own)
+/* A peak in eighths of an octave above a sixteenth of what is sure to be an alarm. */
+static int eighths(real peak)
 {
-    slider_crank_candidate found = SLIDER_CRANK_LIKELY;
+    real top = REAL(0.0625);
+    int n = 0;
+
+    while (n < 255 && peak >= top) {
+        top *= REAL(1.0905077326652577);
+        ++n;
+    }
+    return n;
+}
+
+/* How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out. */
+static int size_of(const slider_crank_diagnosis *d, int c)
+{
+    int size = 0;
     int k;
 
     for (k = 0; k < SLIDER_CRANK_RESIDUALS; ++k) {
-        if (d->state[k] == SLIDER_CRANK_ALARM && own[k] == 0u) {
-            return SLIDER_CRANK_RULED_OUT;
-        }
-        if (d->state[k] == SLIDER_CRANK_HEALTHY && own[k] == 3u) {
-            found = SLIDER_CRANK_SMALL;
+        if (d->state[k] == SLIDER_CRANK_ALARM) {
+            const int n = eighths(d->peak[k]);
+
+            if (least_size[c][k] == 0u) {
+                return -1;
+            }
+            if (n > 0 && n + (int)least_size[c][k] > size) {
+                size = n + (int)least_size[c][k];
+            }
         }
     }
-    return found;
+    return size;
+}
+
+/* What is left of the faults of class c. */
+static slider_crank_candidate left_of(const slider_crank_diagnosis *d, int c)
+{
+    const int size = size_of(d, c);
+    int k;
+
+    if (size < 0) {
+        return SLIDER_CRANK_RULED_OUT;
+    }
+    for (k = 0; k < SLIDER_CRANK_RESIDUALS && d->settled >= d->window; ++k) {
+        const int sure = (int)sure_size[c][k];
+
+        if (d->state[k] == SLIDER_CRANK_HEALTHY && sure != 255 && sure <= size) {
+            return SLIDER_CRANK_SMALL;
+        }
+    }
+    return SLIDER_CRANK_LIKELY;
 }
 
 /* Which classes of faults the residuals leave, and the one if it is one. */
@@ -808,7 +867,7 @@ static void judge(slider_crank_diagnosis *d)
 
     d->fault_class = SLIDER_CRANK_UNKNOWN;
     for (c = 0; c < SLIDER_CRANK_CLASSES; ++c) {
-        const slider_crank_candidate left = left_of(d, signature[c]);
+        const slider_crank_candidate left = left_of(d, c);
 
         d->candidate[c] = (uint8_t)left;
         if (left == SLIDER_CRANK_LIKELY) {
@@ -844,6 +903,7 @@ void slider_crank_clear(slider_crank_diagnosis *diagnosis)
             diagnosis->state[k] = SLIDER_CRANK_HEALTHY;
         }
         diagnosis->since[k] = 0u;
+        diagnosis->peak[k] = REAL(0.0);
         forget_sums(diagnosis, k);
     }
     for (k = 0; k < SLIDER_CRANK_CLASSES; ++k) {
@@ -862,6 +922,7 @@ void slider_crank_diagnosis_reset(slider_crank_diagnosis *diagnosis)
     diagnosis->row = SLIDER_CRANK_ROW;
     diagnosis->least = 15u;
     diagnosis->hold = 10u * SLIDER_CRANK_ROW;
+    diagnosis->window = 300u;
     diagnosis->latch = false;
     diagnosis->tick = 0u;
     for (k = 0; k < SLIDER_CRANK_RESIDUALS; ++k) {

@@ -284,7 +284,7 @@ typedef enum slider_crank_state {
 
 typedef enum slider_crank_candidate {
     SLIDER_CRANK_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    SLIDER_CRANK_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    SLIDER_CRANK_SMALL,          /* a residual is quiet that shows so large a fault */
     SLIDER_CRANK_LIKELY
 } slider_crank_candidate;
 
@@ -297,6 +297,7 @@ typedef struct slider_crank_diagnosis {
     uint32_t row;    /* samples between two rows: SLIDER_CRANK_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until slider_crank_clear */
 
     /* for you to read */
@@ -310,6 +311,7 @@ typedef struct slider_crank_diagnosis {
     slider_crank_real above[SLIDER_CRANK_RESIDUALS];
     slider_crank_real below[SLIDER_CRANK_RESIDUALS];
     slider_crank_real louder[SLIDER_CRANK_RESIDUALS];
+    slider_crank_real peak[SLIDER_CRANK_RESIDUALS];
     uint32_t streak[SLIDER_CRANK_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -256,7 +256,7 @@ typedef enum two_tanks_state {
 
 typedef enum two_tanks_candidate {
     TWO_TANKS_RULED_OUT = 0,  /* a residual is in alarm that does not see it */
-    TWO_TANKS_SMALL,          /* a residual is quiet that would show it, were it large enough */
+    TWO_TANKS_SMALL,          /* a residual is quiet that shows so large a fault */
     TWO_TANKS_LIKELY
 } two_tanks_candidate;
 
@@ -269,6 +269,7 @@ typedef struct two_tanks_diagnosis {
     uint32_t row;    /* samples between two rows: TWO_TANKS_ROW */
     uint32_t least;  /* samples in a row that are out before a residual is in alarm */
     uint32_t hold;   /* samples that all have to be quiet for before the alarm is over */
+    uint32_t window; /* samples that a residual has to be quiet for to speak against a fault */
     bool latch;      /* whether an alarm stays until two_tanks_clear */
 
     /* for you to read */
@@ -282,6 +283,7 @@ typedef struct two_tanks_diagnosis {
     two_tanks_real above[TWO_TANKS_RESIDUALS];
     two_tanks_real below[TWO_TANKS_RESIDUALS];
     two_tanks_real louder[TWO_TANKS_RESIDUALS];
+    two_tanks_real peak[TWO_TANKS_RESIDUALS];
     uint32_t streak[TWO_TANKS_RESIDUALS];
     uint32_t quiet;
     uint32_t settled;

@@ -152,6 +152,7 @@ def main(words: Sequence[str]) -> int:
     parser.add_argument("--start", type=int, default=START, help="first seed")
     parser.add_argument("--only", action="append", default=[], help="machines, by name")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--qemu", action="store_true", help="board: on a Cortex-M4F in qemu")
     parser.add_argument("--write", action="store_true")
     args = parser.parse_args(words)
     chosen = [m for m in MACHINES if not args.only or m.name in args.only]
@@ -168,8 +169,8 @@ def main(words: Sequence[str]) -> int:
         text = double(chosen, args.seeds, args.start, args.jobs)
         own = [f"--seeds {args.seeds}", *own]
     elif args.what == "board":
-        text = on_board(chosen, args.seeds, args.start, args.jobs)
-        own = [f"--seeds {args.seeds}", *own]
+        text = on_board(chosen, args.seeds, args.start, args.jobs, args.qemu)
+        own = [f"--seeds {args.seeds}", *own, *(["--qemu"] if args.qemu else [])]
     else:
         text, said = faulty(chosen, args.seeds, args.start, args.jobs, args.times)
         size = [] if args.times == TIMES else [f"--times {args.times:g}"]

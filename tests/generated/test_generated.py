@@ -11,7 +11,7 @@ import pytest
 
 import bondgraph
 from bondgraph.backends.costs import CORES, missing
-from bondgraph.backends.write import COSTS
+from bondgraph.backends.write import COSTS, MANIFEST
 from bondgraph.backends.emit import EXTRAS
 from bondgraph.backends.identifiers import snake
 from bondgraph.ir.artifact import Artifact
@@ -52,10 +52,16 @@ def test_is_what_is_committed(model: str, update: bool) -> None:
     folder = _ROOT / "generated" / model
     if update and artifacts:
         _compilation(model).with_options(costs=True).write(folder)
+    kept = {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()} - {MANIFEST}
+    assert kept == {a.path for a in artifacts}, "run `make update` and read the difference"
     for artifact in artifacts:
         path = folder / artifact.path
-        assert path.is_file(), f"{path.relative_to(_ROOT)} is not there: run `make update`"
         assert COSTS.sub("", path.read_text(encoding="utf-8")) == artifact.text
+
+
+def test_nothing_is_left_of_models_that_are_gone() -> None:
+    kept = {p.name for p in (_ROOT / "generated").iterdir() if p.is_dir()}
+    assert kept == {m for m in _MODELS if _artifacts(m)[1]}
 
 
 @pytest.mark.parametrize("model", ["dc_motor", "khepera"])

@@ -7,12 +7,10 @@ field of fractions (Ore, 1933): a third one whose column lies in it can be mista
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import combinations
 from random import Random
-
-import networkx as nx
 
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.parity import parity
@@ -133,5 +131,30 @@ def _outside(numbers: Numbers, columns: list[Row], others: Mapping[int, Row]) ->
 
 def _any_two(alike: _Suspects, single: int) -> tuple[tuple[int, ...], ...]:
     """The largest sets of groups any two of which look like a single one."""
-    graph = nx.Graph(pair for pair, singles in alike.items() if single in singles)
-    return tuple(sorted(tuple(sorted(clique)) for clique in nx.find_cliques(graph)))
+    beside: dict[int, set[int]] = {}
+    for (a, b), singles in alike.items():
+        if single in singles:
+            beside.setdefault(a, set()).add(b)
+            beside.setdefault(b, set()).add(a)
+    return tuple(sorted(_cliques(beside, (), set(beside), set()))) if beside else ()
+
+
+def _cliques(
+    beside: Mapping[int, set[int]], own: tuple[int, ...], more: set[int], done: set[int]
+) -> Iterator[tuple[int, ...]]:
+    """The largest sets of neighbours that hold `own`, some of `more`, and none that is `done`.
+
+    By Bron and Kerbosch (1973), with the neighbours of one left out that has most of them. networkx
+    has it too, but takes as long to be loaded as all ranks take, and a watch waits for it.
+
+    >>> beside = {1: {2, 3}, 2: {1, 3}, 3: {1, 2, 4}, 4: {3}}
+    >>> sorted(_cliques(beside, (), {1, 2, 3, 4}, set()))
+    [(1, 2, 3), (3, 4)]
+    """
+    if not (more or done):
+        yield tuple(sorted(own))
+        return
+    most = max(sorted(more | done), key=lambda k: len(beside[k] & more))
+    for k in sorted(more - beside[most]):
+        yield from _cliques(beside, (*own, k), more & beside[k], done & beside[k])
+        more, done = more - {k}, done | {k}

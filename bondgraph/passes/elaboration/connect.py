@@ -17,6 +17,7 @@ from bondgraph.passes.elaboration.scope import (
     RawBond,
     RawEnd,
     Scope,
+    ValueEntry,
 )
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
@@ -182,6 +183,13 @@ class Wiring:
         otherwise = f"`{owner}` has the ports {listed(ports)}." if ports else (
             f"`{owner}` has no named ports: write `{owner}` alone."
         )  # fmt: skip
+        value = None if scope is None else scope.values.get(part.name)
+        if scope and isinstance(value, ValueEntry) and value.kind in ("input", "param"):
+            fail(self.report, "unknown-port", f"`{part.name}` of `{owner}` is no port.",
+                 Label(part.origin), Label(value.origin, "a value"),
+                 help=f"No bond gives it: `{part.name} = ...` in the round brackets behind the name"
+                 f" of the instance does, as in `{scope.model.name}:{scope.name}({part.name} ="
+                 " ...)`.")  # fmt: skip
         fail(self.report, "unknown-port", f"`{owner}` has no port `{part.name}`.", part.origin,
              help=meant(part.name, ports, otherwise, part.origin))  # fmt: skip
 

@@ -20,6 +20,7 @@ from bondgraph.passes.elaboration.calls import Past
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.laws import Coefficient
 from bondgraph.passes.elaboration.problems import Skip, fail
+from bondgraph.passes.elaboration.quantities import PURE
 from bondgraph.passes.elaboration.received import Delivery
 from bondgraph.passes.elaboration.scope import Bound, NodeEntry, Scope, ValueEntry
 from bondgraph.passes.elaboration.values import Values
@@ -207,8 +208,11 @@ class Records:
             bound = Bound(declaration.counts, entry.scope, entry.env, declaration.counts.origin)
             counts, unit = self.values.constant_value(bound, entry.path, "The counts a turn")
             self.values.quantities.pure(unit, declaration.counts.origin, "counts have no unit")
-            self.values.quantities.pure(term, declaration.origin,
-                                        "an encoder measures an angle, in rad")  # fmt: skip
+            self.values.quantities.same(
+                term, PURE, declaration.origin, "an encoder measures an angle, in rad",
+                "It counts parts of a turn. Read an angle, a length over what the machine goes in a"
+                " radian, as in `sensor x : rad = int(v.f)/r counts 2048/turn`.",
+            )  # fmt: skip
         record = Sensor(entry.path, symbol, reads, "signal", None, counts, None, None, None,
                         declaration.doc, entry.origin)  # fmt: skip
         self.sensors.append((record, term, declaration.unit))

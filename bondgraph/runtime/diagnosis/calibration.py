@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from bondgraph.ir.residual_limit import ShownSize
 from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, slack, tolerated
@@ -34,6 +35,7 @@ _ABOVE = 1.2  # times the largest excess of a healthy machine that a limit stays
 _CHUNK = 5000  # samples at a time
 _APART = 16  # rows without a value between two logs, more than noise is taken to remember
 _SURE = 0.9  # share of the windows in which the smallest change shows
+_LEAST = 0.1  # that in which a change may show
 
 
 class Shown(NamedTuple):
@@ -94,15 +96,17 @@ def tune(
         digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, found, bounds
     )
     sizes: list[list[_Seen]] = [[] for _ in work.all]
+    rigid = np.array([bounds[name] for name in engine.residuals])
     for k, log in enumerate(logs):
-        for seen in work.windows(log, found, window):
+        for seen in work.windows(log, found, window, rigid):
             for all_, one in zip(sizes, seen, strict=True):
                 all_.append(one)
         progress((len(logs) + k + 1) / total)
     shown = tuple(
         _shown(h, found, engine.residuals) for h, found in zip(work.all, sizes, strict=True)
     )
-    return Tuned(tuning, shown, window)
+    by_fault = _by_fault(work.all, sizes, engine.residuals)
+    return Tuned(tuning._replace(shows=by_fault, window=window), shown, window)
 
 
 class _Noise(NamedTuple):
@@ -122,11 +126,15 @@ class _Noise(NamedTuple):
 
 
 class _Seen(NamedTuple):
-    """Of one window: the smallest change that shows, when, and in which residual."""
+    """Of one window: the smallest change that shows, when, and in which residual; and for each
+    residual the one that may show in it, and the one that does with a threshold that never moves.
+    """
 
     size: float
     delay: float
     residual: int
+    least: Array
+    sure: Array
 
 
 class _Work:
@@ -198,9 +206,12 @@ class _Work:
             yield whole.run(samples[k : k + step])
 
     def windows(
-        self, samples: Array, known: Mapping[str, Limit], window: float
+        self, samples: Array, known: Mapping[str, Limit], window: float, rigid: Array
     ) -> Iterator[list[_Seen]]:
-        """For each window of the log, what of each hypothesis would show if it began there."""
+        """For each window of the log, what of each hypothesis would show if it began there.
+
+        `rigid` are thresholds that never move, by residual.
+        """
         whole = _Whole(self)
         engine = whole.engine
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
@@ -213,19 +224,27 @@ class _Work:
             bank = Bank(copied(engine), self.all, self.nominal, samples[begin - 1])
             slopes = np.abs(bank.run(part))
             batch, _, _ = whole.run(part)
-            yield [self._seen(h, slopes[:, k], batch, top) for k, h in enumerate(self.all)]
+            yield [self._seen(h, slopes[:, k], batch, top, rigid) for k, h in enumerate(self.all)]
 
-    def _seen(self, hypothesis: Hypothesis, slopes: Array, batch: Batch, top: Array) -> _Seen:
+    def _seen(
+        self, hypothesis: Hypothesis, slopes: Array, batch: Batch, top: Array, rigid: Array
+    ) -> _Seen:
         share = self.model.tolerances.get(hypothesis.fault, 0.0)
         own = share * abs(self.nominal.get(hypothesis.fault, 0.0)) * slopes
-        need = 2.0 * batch.bound - np.minimum(own, batch.bound) + top
-        least = np.divide(
-            need, slopes, out=np.full_like(slopes, math.inf),
-            where=(slopes > 0) & batch.valid & np.isfinite(top),
-        )  # fmt: skip
+        moved = (slopes > 0) & batch.valid & np.isfinite(top)
+
+        def size(need: Array) -> Array:
+            return np.divide(need, slopes, out=np.full_like(slopes, math.inf), where=moved)
+
+        least = size(2.0 * batch.bound - np.minimum(own, batch.bound) + top)
         at, residual = np.unravel_index(int(np.argmin(least)), least.shape)
-        size = float(least[at, residual])
-        return _Seen(size, (int(at) + 1) * self.engine.sample_time, int(residual))
+        return _Seen(
+            float(least[at, residual]),
+            (int(at) + 1) * self.engine.sample_time,
+            int(residual),
+            least.min(axis=0),
+            size(np.broadcast_to(2.0 * rigid + top, slopes.shape)).min(axis=0),
+        )
 
 
 class _Whole:
@@ -317,6 +336,31 @@ def _higher(
 def _mean(column: Array) -> float:
     known = column[np.isfinite(column)]
     return float(known.mean()) if len(known) else 0.0
+
+
+def _by_fault(
+    all_: Sequence[Hypothesis], found: Sequence[Sequence[_Seen]], residuals: Sequence[str]
+) -> dict[str, dict[str, ShownSize]]:
+    """By residual and fault, from which size on the fault shows, in whatever way it is wrong.
+
+    Beside the smallest size that is sure to show in any residual in the same window: what a machine
+    that hardly moves shows of nothing does not count, and ways of different units compare.
+    """
+    by: dict[str, dict[str, ShownSize]] = {name: {} for name in residuals}
+    for one, windows in zip(all_, found, strict=True):
+        units = [float(s.sure.min()) for s in windows]
+        moved = [(s, unit) for s, unit in zip(windows, units, strict=True) if math.isfinite(unit)]
+        if not moved:
+            continue
+        last = len(moved) - 1
+        least = np.sort([s.least / unit for s, unit in moved], axis=0)[math.floor(_LEAST * last)]
+        sure = np.sort([s.sure / unit for s, unit in moved], axis=0)[math.ceil(_SURE * last)]
+        for k, name in enumerate(residuals):
+            if math.isfinite(least[k]):
+                own = ShownSize(float(least[k]), float(sure[k]))
+                was = by[name].get(one.fault, own)
+                by[name][one.fault] = ShownSize(min(was.least, own.least), max(was.sure, own.sure))
+    return by
 
 
 def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[str]) -> Shown:

@@ -60,6 +60,9 @@ class Driving:
 
         `added` is what the inputs add to them, (inputs, residuals), NaN where nobody knows.
         """
+        if not valid.any():
+            self.restart()
+            return
         mean = samples[:, self._at].mean(axis=0)[:, None]
         for table, (low, high) in (
             (self._range, self._row), (self._means, (mean, mean)), (self._terms, (added, added))

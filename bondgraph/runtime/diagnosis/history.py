@@ -29,6 +29,7 @@ class History:
     def __init__(self, prior: Array) -> None:
         self.prior = prior
         self.root = np.zeros((len(prior), len(prior) + 1))
+        self._known: tuple[Array, Array] | None = None  # of which root, and what is known by it
 
     def add(self, value: Array, weight: Array, slopes: Array, keep: float = _KEPT) -> None:
         """One row: residuals, their weights, slopes of the shape (parameters, residuals)."""
@@ -75,9 +76,12 @@ class History:
         return moved @ known[:, -1], moved @ moved.T
 
     def known(self) -> Array:
-        """Prior and history together, in the form of `root`."""
-        count = len(self.root)
-        return triangle(np.vstack([np.eye(count, count + 1), self.root]))[:count]
+        """Prior and history together, in the form of `root`; the same while nothing is added."""
+        if self._known is None or self._known[0] is not self.root:
+            count = len(self.root)
+            known = triangle(np.vstack([np.eye(count, count + 1), self.root]))[:count]
+            self._known = self.root, known
+        return self._known[1]
 
     def fit(self) -> Array:
         """By how much the parameters are off, most probably."""

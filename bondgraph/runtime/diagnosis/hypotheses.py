@@ -229,15 +229,19 @@ class Bank:
         """As `run`, with the residuals of the first engine there, (n, residuals)."""
         plan = self._plan
         tables, received = self._told(samples)
+        value, valid = value[None], valid[None]
         if plan.engines:
             batch = plan.engines[0].run_with(plan.engines[1:], tables, received, plan.which)
-            value = np.concatenate([batch.value[:, at], value[None]])
-            valid = np.concatenate([batch.valid[:, at], valid[None]])
-        else:
-            value, valid = value[None], valid[None]
+            of, sound = batch.value, batch.valid
+            if len(at) < len(samples):
+                of, sound = np.take(of, at, axis=1), np.take(sound, at, axis=1)
+            value, valid = np.concatenate([of, value]), np.concatenate([sound, valid])
         up, down = plan.ends.T
-        slopes = (value[up] - value[down]) / plan.apart
-        slopes *= valid[up] & valid[down]
+        slopes = np.take(value, up, axis=0)
+        slopes -= np.take(value, down, axis=0)
+        slopes /= plan.apart
+        if not valid.all():
+            slopes *= valid[up] & valid[down]
         return np.asarray(slopes.transpose(1, 0, 2))
 
     def _told(self, samples: Array) -> tuple[Array, Array | None]:
@@ -395,17 +399,18 @@ class Sizes:
         self._engine = engine
         self._sums = np.zeros(len(engine.signals))
         self._counts = np.zeros(len(engine.signals))
+        counted = [(at, k.counts) for at, k in enumerate(engine.signals) if k.counts is not None]
+        self._counted = [at for at, _ in counted]
+        self._turns = [2 * math.pi / counts / engine.sample_time for _, counts in counted]
 
     def add(self, samples: Array) -> None:
         """Further (n, signals) samples, one after the other."""
-        for at, known in enumerate(self._engine.signals):
-            column = samples[:, at]
-            if known.counts is not None:
-                turn = 2 * math.pi / known.counts / self._engine.sample_time
-                column = np.diff(column) * turn
-            column = column[np.isfinite(column)]
-            self._sums[at] += float(np.sum(column**2))
-            self._counts[at] += len(column)
+        table = samples.copy()
+        table[:1, self._counted] = math.nan
+        table[1:, self._counted] = np.diff(samples[:, self._counted], axis=0) * self._turns
+        known = np.isfinite(table)
+        self._sums += np.square(np.where(known, table, 0.0)).sum(axis=0)
+        self._counts += known.sum(axis=0)
 
     def found(self) -> dict[str, float]:
         """By path; 1 for a signal that has always been zero, of which nothing is known."""

@@ -13,6 +13,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import cached_property
+from itertools import accumulate
 from types import MappingProxyType
 
 import numpy as np
@@ -20,7 +22,7 @@ import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.history import History, triangle
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.model_error import SHARE, shares, whitened
+from bondgraph.runtime.diagnosis.model_error import SHARE, shares, unroot
 from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
@@ -86,73 +88,135 @@ def inverse(weight: Array) -> Array:
     return np.where(weight > 0, 1.0 / np.maximum(weight, 1e-300), math.inf)
 
 
+class Case(NamedTuple):
+    """Hypotheses, and what they do to the rows: slopes, (rows, hypotheses, residuals).
+
+    `others` are the rows as they would be if a hypothesis without a size were told to the
+    residuals, by its number.
+    """
+
+    hypotheses: Sequence[Hypothesis]
+    slopes: Array
+    others: Mapping[int, Rows] = MappingProxyType({})
+
+
+class Evidence:
+    """What rows since an onset tell of faults: what is the same for each of them is done once.
+
+    Raises numpy.linalg.LinAlgError where a number is none.
+    """
+
+    def __init__(self, rows: Rows, history: History) -> None:
+        _finite(*rows[:3])
+        self._values = max(1, int((rows.weight > 0).sum()))
+        self._prior = history.prior
+        self._known = _with_errors(history.known(), rows.value.shape[1])
+        _finite(self._known)  # products of finite numbers may be too large for one
+        self._seen = _Seen(rows, history.prior)
+        self._healthy = _Healthy(self._known, self._seen.table)
+
+    def explained(self, cases: Sequence[Case]) -> list[list[Explained]]:
+        """How well each fault of each case explains the rows, in the order of the hypotheses."""
+        own = [_by_fault(case) for case in cases]
+        first = list(accumulate([len(case.hypotheses) for case in cases], initial=0))
+        sized = [[start + j for j in numbers if j not in case.others]
+                 for case, start, ways in zip(cases, first, own, strict=False)
+                 for numbers in ways.values()]  # fmt: skip
+        alone = [[j] for numbers in sized for j in numbers]
+        every = [numbers for numbers in sized if len(numbers) > 1]
+        fits = self._fits(cases, [*alone, *every])
+        found = []
+        for case, start, ways in zip(cases, first, own, strict=False):
+            found.append([self._fault(case, numbers, start, fits) for numbers in ways.values()])
+        return found
+
+    def pairs(self, case: Case, singles: Sequence[Explained]) -> list[ExplainedPair]:
+        """How well two faults at once explain the rows, the best pair first.
+
+        Each fault acts in the way in which it explains most alone, if that has a size, and one of
+        both is among those that explain most so: the first step of a search that adds one fault at
+        a time. Two faults have the same scales, and the prior of one.
+        """
+        leads = sorted((e for e in singles if e.hypothesis.held is None), key=lambda e: -e.evidence)
+        place = [case.hypotheses.index(e.hypothesis) for e in leads]
+        pairs = [(a, b) for at, a in enumerate(place[:_LEADS]) for b in place[at + 1 :]]
+        fits = self._fits([case], pairs)
+        found = []
+        for pair in pairs:
+            own, fit = (case.hypotheses[pair[0]], case.hypotheses[pair[1]]), fits[pair]
+            sizes = (fit.changes[fit.top] * [h.usual for h in own]).tolist()
+            left = float(fit.left[fit.top]) / self._values
+            two = ExplainedPair(own, _mean(fit.evidence), (sizes[0], sizes[1]), left, self._values)
+            found.append(two)
+        return sorted(found, key=lambda pair: -pair.evidence)
+
+    def _fits(
+        self, cases: Sequence[Case], sets: Sequence[Sequence[int]]
+    ) -> dict[tuple[int, ...], _Fits]:
+        """Of sets of hypotheses at once, numbered through all cases."""
+        slopes = np.concatenate([case.slopes for case in cases], axis=1)
+        _finite(slopes)
+        usual = np.array([h.usual for case in cases for h in case.hypotheses])
+        return _Unexplained(self._healthy, self._seen.moved(slopes, usual)).fits(sets)
+
+    def _fault(
+        self,
+        case: Case,
+        numbers: Sequence[int],
+        start: int,
+        fits: Mapping[tuple[int, ...], _Fits],
+    ) -> Explained:
+        """One fault, by the numbers of its hypotheses in a case that begins at a number."""
+        sized = [j for j in numbers if j not in case.others]
+        chances = [self._instead(case.hypotheses[j], case.others[j])
+                   for j in numbers if j in case.others]  # fmt: skip
+        if sized:
+            one = [fits[start + j,] for j in sized]
+            whole = fits[tuple(start + j for j in sized)] if len(one) > 1 else None
+            chances.insert(0, _compared([case.hypotheses[j] for j in sized], one, whole))
+        best = _either(chances)
+        return best._replace(left=best.left / self._values, values=self._values)
+
+    def _instead(self, hypothesis: Hypothesis, other: Rows) -> Explained:
+        """A hypothesis without a size: the machine is well if residuals are told what it says.
+
+        What was seen as it was told and as it should have been told, each with the same parameters
+        off within their tolerances.
+        """
+        _finite(*other[:3])
+        rest = len(self._known)
+        before, after = self._told, self._whole(_Seen(other, self._prior))
+        misfit, left = (float(np.square(root[rest:, rest]).sum()) for root in (before, after))
+        size, others = (np.log(np.abs(np.diagonal(r)[:rest])).sum() for r in (before, after))
+        evidence = 0.5 * (misfit - left) + float(size - others)
+        share = 1.0 - left / misfit if misfit > 0 else 0.0
+        return Explained(hypothesis.fault, evidence, hypothesis, 1.0, 0.0, left, share=share)
+
+    @cached_property
+    def _told(self) -> Array:
+        return self._whole(self._seen)
+
+    def _whole(self, seen: _Seen) -> Array:
+        """The triangle of what was seen and what is known."""
+        return triangle(np.vstack([self._known, seen.table.reshape(-1, len(self._known) + 1)]))
+
+
 def explain(
     rows: Rows,
     hypotheses: Sequence[Hypothesis],
     history: History,
     others: Mapping[int, Rows] = MappingProxyType({}),
 ) -> list[Explained]:
-    """How well each fault explains the rows since the onset, in the order of the hypotheses.
+    """How well each fault explains the rows since one onset: see `Evidence` and `Case`."""
+    return Evidence(rows, history).explained([Case(hypotheses, rows.slopes, others)])[0]
 
-    `others` are the rows as they would be if a hypothesis without a size were told to the
-    residuals, by its number. Raises numpy.linalg.LinAlgError where a number is none.
-    """
-    known, seen = _compared_with(rows, hypotheses, history)
-    values = max(1, int((rows.weight > 0).sum()))
-    told = {k: _seen(other, history.prior, np.zeros(0)) for k, other in others.items()}
-    _finite(*told.values())
-    ways: dict[str, list[int]] = {}
-    for j, hypothesis in enumerate(hypotheses):
-        ways.setdefault(hypothesis.fault, []).append(j)
-    sized = {fault: [j for j in own if j not in told] for fault, own in ways.items()}
-    alone = [[j] for own in sized.values() for j in own]
-    every = [own for own in sized.values() if len(own) > 1]
-    fits = _Unexplained(known, seen).fits([*alone, *every])
-    found = []
-    for fault, own in ways.items():
-        chances = [_instead(hypotheses[j], known, seen, told[j]) for j in own if j in told]
-        if sized[fault]:
-            one, several = [fits[j,] for j in sized[fault]], fits[tuple(sized[fault])]
-            whole = several if len(one) > 1 else None
-            chances.insert(0, _compared([hypotheses[j] for j in sized[fault]], one, whole))
-        best = _either(chances)
-        found.append(best._replace(left=best.left / values, values=values))
+
+def _by_fault(case: Case) -> dict[str, list[int]]:
+    """The numbers of the hypotheses of each fault."""
+    found: dict[str, list[int]] = {}
+    for j, hypothesis in enumerate(case.hypotheses):
+        found.setdefault(hypothesis.fault, []).append(j)
     return found
-
-
-def explain_pairs(
-    rows: Rows, hypotheses: Sequence[Hypothesis], history: History, singles: Sequence[Explained]
-) -> list[ExplainedPair]:
-    """How well two faults at once explain the rows, the best pair first.
-
-    Each fault acts in the way in which it explains most alone, if that has a size, and one of both
-    is among those that explain most so: the first step of a search that adds one fault at a time.
-    Two faults have the same scales, and the prior of one; raises as `explain` does.
-    """
-    leads = sorted((e for e in singles if e.hypothesis.held is None), key=lambda e: -e.evidence)
-    place = [hypotheses.index(e.hypothesis) for e in leads]
-    values = max(1, int((rows.weight > 0).sum()))
-    pairs = [(a, b) for at, a in enumerate(place[:_LEADS]) for b in place[at + 1 :]]
-    fits = _Unexplained(*_compared_with(rows, hypotheses, history)).fits(pairs)
-    found = []
-    for pair in pairs:
-        own, fit = (hypotheses[pair[0]], hypotheses[pair[1]]), fits[pair]
-        sizes = (fit.changes[fit.top] * [h.usual for h in own]).tolist()
-        left = float(fit.left[fit.top]) / values
-        found.append(ExplainedPair(own, _mean(fit.evidence), (sizes[0], sizes[1]), left, values))
-    return sorted(found, key=lambda pair: -pair.evidence)
-
-
-def _compared_with(
-    rows: Rows, hypotheses: Sequence[Hypothesis], history: History
-) -> tuple[Array, Array]:
-    """What is known of the healthy machine, and what was seen; raises as `explain` does."""
-    _finite(*rows)
-    seen = _seen(rows, history.prior, np.array([h.usual for h in hypotheses]))
-    known = _with_errors(history.known(), rows.value.shape[1])
-    _finite(known)  # products of finite numbers may be too large for one
-    _finite(seen)
-    return known, seen
 
 
 def _finite(*tables: Array) -> None:
@@ -170,29 +234,47 @@ def _with_errors(known: Array, residuals: int) -> Array:
     return found
 
 
-def _seen(rows: Rows, prior: Array, usual: Array) -> Array:
-    """What was seen and what would move it, in units of noise: (chunks, moments, columns).
+class _Seen:
+    """What was seen and what would move it, whitened: (chunks, moments, columns).
 
-    Columns are the parameters with a tolerance, in deviations, the errors of residuals that stay,
-    the hypotheses, in their usual changes, first as what is left of a change that ends with the
-    chunk and then as one that begins with it, and the residuals. Chunks are full, but the first.
+    Columns of the `table` are the parameters with a tolerance, in deviations, the errors of
+    residuals that stay, and the residuals. Chunks are full, but the first.
     """
-    count, residuals = rows.value.shape
-    noise = np.sqrt(rows.weight)[:, :, None]
-    rest = rows.rest.transpose(0, 2, 1) * prior
-    slopes = rows.slopes.transpose(0, 2, 1) * usual
-    length = max(_CHUNK, -(-count // _PARTS))
-    own = shares(count, length)
-    error = SHARE * rows.value[:, :, None]
-    ever = math.sqrt(own.ever) * error * np.eye(residuals)
-    before = -count % length
-    begun = ((np.arange(before, before + count) % length + 1) / length)[:, None, None]
-    moved = slopes * (1.0 - begun), slopes * begun
-    table = np.concatenate([rest, ever, *moved, rows.value[:, :, None], error], axis=2) * noise
-    more = np.zeros((before, *table.shape[1:]))  # of nothing nothing follows
-    table = np.concatenate([more, table]).reshape(-1, length, *table.shape[1:])
-    white = whitened(table[..., :-1], table[..., -1], own)
-    return white.reshape(len(white), -1, white.shape[-1])
+
+    def __init__(self, rows: Rows, prior: Array) -> None:
+        count, residuals = rows.value.shape
+        self._noise = np.sqrt(rows.weight)[:, :, None]
+        self._length = max(_CHUNK, -(-count // _PARTS))
+        own = shares(count, self._length)
+        error = SHARE * rows.value[:, :, None]
+        ever = math.sqrt(own.ever) * error * np.eye(residuals)
+        self._unroot = unroot(self._chunks(error)[..., 0], own)
+        table = [rows.rest.transpose(0, 2, 1) * prior, ever, rows.value[:, :, None]]
+        self.table = self._white(np.concatenate(table, axis=2))
+
+    def moved(self, slopes: Array, usual: Array) -> Array:
+        """The same of hypotheses, (rows, hypotheses, residuals), in their usual changes.
+
+        First as what is left of a change that ends with the chunk, and then as one that begins with
+        it.
+        """
+        count, length = len(slopes), self._length
+        before = -count % length
+        begun = ((np.arange(before, before + count) % length + 1) / length)[:, None, None]
+        columns = slopes.transpose(0, 2, 1) * usual
+        return self._white(np.concatenate([columns * (1.0 - begun), columns * begun], axis=2))
+
+    def _chunks(self, table: Array) -> Array:
+        """A table (rows, residuals, columns) in units of noise, (chunks, rows, residuals, ...)."""
+        more = np.zeros((-len(table) % self._length, *table.shape[1:]))
+        table = np.concatenate([more, table * self._noise])  # of nothing nothing follows
+        return table.reshape(-1, self._length, *table.shape[1:])
+
+    def _white(self, table: Array) -> Array:
+        _finite(table)
+        white = self._unroot @ self._chunks(table).transpose(0, 2, 1, 3)
+        _finite(white)
+        return white.transpose(0, 2, 1, 3).reshape(len(white), -1, table.shape[2])
 
 
 class _Fits(NamedTuple):
@@ -212,11 +294,6 @@ class _Fits(NamedTuple):
     def top(self) -> int:
         """The way that explains most."""
         return int(np.argmax(self.evidence))
-
-    @classmethod
-    def joined(cls, one: _Fits, other: _Fits) -> _Fits:
-        """The ways of both."""
-        return cls(*[np.concatenate(pair) for pair in zip(one, other, strict=True)])
 
 
 def _compared(own: Sequence[Hypothesis], alone: Sequence[_Fits], every: _Fits | None) -> Explained:
@@ -238,36 +315,59 @@ def _mean(evidence: Array) -> float:
     return top + math.log(float(np.exp(np.maximum(evidence - top, -700.0)).mean()))
 
 
-class _Unexplained:
-    """What the healthy machine leaves unexplained of what was seen, and of what faults do.
+class _Healthy:
+    """What the healthy machine explains, and what it leaves unexplained of what was seen.
 
     The parameters with a tolerance are the same beside each fault: they are taken out of all
     columns once, by orthonormal bases of what they span, in each chunk and then of all chunks
     (Frisch and Waugh, 1933). Of the columns themselves, not of their products: nothing is lost
-    where a fault does nearly what a parameter does. What is left of a fault is the same rows in
-    every chunk, with a column for each end of one, and those that no parameter reaches.
+    where a fault does nearly what a parameter does. What is left of a column is the same rows in
+    every chunk, and those that no parameter reaches.
     """
 
     def __init__(self, known: Array, seen: Array) -> None:
-        rest, chunks, columns = len(known), len(seen), seen.shape[2] - len(known)
-        basis, root = np.linalg.qr(seen[:, :, :rest])
-        size = basis.shape[2]
-        part = basis.transpose(0, 2, 1) @ seen[:, :, rest:]
-        self._within = seen[:, :, rest:] - basis @ part  # (chunks, moments, columns)
-        every = np.vstack([known[:, :-1], root.reshape(chunks * size, rest)])
-        shared = np.linalg.qr(every)[0]
-        own = shared[rest:].reshape(chunks, size, rest).transpose(0, 2, 1) @ part
-        wide = own.transpose(1, 0, 2).reshape(rest, chunks * columns)
-        moved = -(shared @ wide).reshape(len(shared), chunks, columns)
+        rest, chunks = len(known), len(seen)
+        self.chunks = chunks
+        self._basis, root = np.linalg.qr(seen[:, :, :rest])
+        self._size = self._basis.shape[2]
+        every = np.vstack([known[:, :-1], root.reshape(chunks * self._size, rest)])
+        self._shared = np.linalg.qr(every)[0]
+        within, moved = self.without(seen[:, :, rest:])
+        self.within = within[:, :, 0]
+        self.value = moved[:, :, 0].sum(axis=1)
+        self.value -= self._shared @ (self._shared[:rest].T @ known[:, -1])
+        self.value[:rest] += known[:, -1]
+
+    def without(self, columns: Array) -> tuple[Array, Array]:
+        """Of columns what no parameter reaches in a chunk, (chunks, moments, columns).
+
+        And what is left of the rest, (rows, chunks, columns): each chunk moves rows of all.
+        """
+        chunks, size, rest = self.chunks, self._size, self._shared.shape[1]
+        part = self._basis.transpose(0, 2, 1) @ columns
+        own = self._shared[rest:].reshape(chunks, size, rest).transpose(0, 2, 1) @ part
+        wide = own.transpose(1, 0, 2).reshape(rest, -1)
+        moved = -(self._shared @ wide).reshape(len(self._shared), chunks, -1)
         for c in range(chunks):
             moved[rest + c * size :][:size, c] += part[c]
+        return columns - self._basis @ part, moved
+
+
+class _Unexplained:
+    """What the healthy machine leaves unexplained of what faults do, beside what was seen.
+
+    That is the rows that `_Healthy` leaves, with a column for each end of a chunk.
+    """
+
+    def __init__(self, healthy: _Healthy, faults: Array) -> None:
+        chunks = healthy.chunks
+        self._healthy = healthy
+        self._within, moved = healthy.without(faults)
         steps = np.abs(np.subtract.outer(np.arange(chunks + 1), np.arange(chunks + 1)))
         self._spread = np.linalg.cholesky(_KEEP**steps)
         self._steady = np.linalg.solve(self._spread, np.ones((chunks + 1, 1)))
-        ending, begun = np.split(moved[:, :, :-1].transpose(2, 0, 1), 2)
+        ending, begun = np.split(moved.transpose(2, 0, 1), 2)
         self._moved = ending @ self._spread[:-1] + begun @ self._spread[1:]
-        self._value = moved[:, :, -1].sum(axis=1) - shared @ (shared[:rest].T @ known[:, -1])
-        self._value[:rest] += known[:, -1]
 
     def fits(self, sets: Sequence[Sequence[int]]) -> dict[tuple[int, ...], _Fits]:
         """Evidence for the hypotheses of each set at once, by their numbers.
@@ -283,7 +383,8 @@ class _Unexplained:
             by_size.setdefault(len(own), []).append(tuple(own))
         for size, alike in by_size.items():
             chunks, moments, _ = self._within.shape
-            numbers = (2 * size + 1) * chunks * (moments + size * chunks + len(self._value))
+            rows = len(self._healthy.value)
+            numbers = (2 * size + 1) * chunks * (moments + size * chunks + rows)
             at_once = max(1, _AT_ONCE // numbers)
             for start in range(0, len(alike), at_once):
                 some = alike[start : start + at_once]
@@ -291,8 +392,9 @@ class _Unexplained:
                 moving = _scaled(left, np.kron(np.eye(size), self._spread[-1:]))
                 every = left[:, :, :-1] @ np.kron(np.eye(size), self._steady)
                 steady = triangle(np.concatenate([every, left[:, :, -1:]], axis=2))
-                both = zip(moving, _scaled(steady, np.eye(size)), strict=True)
-                found |= zip(some, [_Fits.joined(*one) for one in both], strict=True)
+                both = [np.concatenate(pair, axis=1) for pair in zip(
+                    moving, _scaled(steady, np.eye(size)), strict=True)]  # fmt: skip
+                found |= zip(some, [_Fits(*one) for one in zip(*both, strict=True)], strict=True)
         return found
 
     def _left(self, sets: npt.NDArray[np.intp]) -> Array:
@@ -305,9 +407,12 @@ class _Unexplained:
         table = np.zeros((count, rows + 2 * size * chunks + 1, size * ends + 1))
         moved = self._moved[sets].transpose(0, 2, 1, 3)
         table[:, :rows, :-1] = moved.reshape(count, rows, size * ends)
-        table[:, :rows, -1] = self._value
-        columns = np.concatenate([sets, sets + every, np.full((count, 1), -1)], axis=1)
-        within = _orthogonal(np.moveaxis(self._within[:, :, columns], 2, 0))
+        table[:, :rows, -1] = self._healthy.value
+        columns = np.concatenate([sets, sets + every], axis=1)
+        within = np.empty((count, *self._within.shape[:2], 2 * size + 1))
+        within[..., :-1] = np.moveaxis(self._within[:, :, columns], 2, 0)
+        within[..., -1] = self._healthy.within
+        within = _orthogonal(within)
         ending, begun = within[..., :-1, :size, None], within[..., :-1, size:-1, None]
         own = ending * self._spread[:-1, None, None] + begun * self._spread[1:, None, None]
         table[:, rows:-1, :-1] = own.reshape(count, 2 * size * chunks, size * ends)
@@ -331,24 +436,6 @@ def _orthogonal(rows: Array) -> Array:
     return root
 
 
-def _instead(hypothesis: Hypothesis, known: Array, told: Array, other: Array) -> Explained:
-    """A hypothesis without a size: the machine is well if residuals are told what it says.
-
-    `told` and `other` are what was seen as it was told and as it should have been told, each with
-    the same parameters off within their tolerances.
-    """
-    rest = len(known)
-    before, after = (
-        triangle(np.vstack([known, table.reshape(-1, rest + 1)]))
-        for table in (told[:, :, [*range(rest), -1]], other)
-    )
-    misfit, left = (float(np.square(root[rest:, rest]).sum()) for root in (before, after))
-    size, others = (np.log(np.abs(np.diagonal(root)[:rest])).sum() for root in (before, after))
-    evidence = 0.5 * (misfit - left) + float(size - others)
-    share = 1.0 - left / misfit if misfit > 0 else 0.0
-    return Explained(hypothesis.fault, evidence, hypothesis, 1.0, 0.0, left, share=share)
-
-
 def _either(ways: Sequence[Explained]) -> Explained:
     """A fault that is wrong by a size or held at a position: one as probable as the other."""
     top = max(ways, key=lambda one: one.evidence)
@@ -356,7 +443,7 @@ def _either(ways: Sequence[Explained]) -> Explained:
     return top._replace(evidence=top.evidence + math.log(weights / len(ways)))
 
 
-def _scaled(left: Array, last: Array) -> list[_Fits]:
+def _scaled(left: Array, last: Array) -> tuple[Array, ...]:
     """From what is left to explain, by one deviation of each change, for each of the scales.
 
     `left` are the triangles of several sets; `last` makes of the changes those of each hypothesis
@@ -377,8 +464,7 @@ def _scaled(left: Array, last: Array) -> list[_Fits]:
     rest = np.square(along / (1.0 + more)).sum(axis=2) + over
     share = 1.0 - rest / np.where(misfit > 0.0, misfit, 1.0)
     share[misfit[:, 0] <= 0.0] = 0.0
-    every = zip(evidence, changes, np.sqrt(variance), rest, share, strict=True)
-    return [_Fits(*numbers) for numbers in every]
+    return evidence, changes, np.sqrt(variance), rest, share
 
 
 def probabilities(found: Sequence[Explained]) -> dict[str, float]:

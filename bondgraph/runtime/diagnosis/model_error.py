@@ -41,8 +41,8 @@ def shares(rows: int, length: int) -> Shares:
     return Shares((1.0 / whole,) * fading, between / 2.0 / whole, (between / 2.0 + 1.0) / whole)
 
 
-def whitened(table: Array, error: Array, own: Shares) -> Array:
-    """A table (chunks, rows, residuals, columns), in units of noise, whitened of an error as well.
+def unroot(error: Array, own: Shares) -> Array:
+    """What whitens rows of such an error beside their noise, (chunks, residuals, rows, rows).
 
     The deviation of the `error` of each value, (chunks, rows, residuals), is in units of its noise,
     with the sign of the value. Errors within a chunk only; each residual has its own.
@@ -51,5 +51,4 @@ def whitened(table: Array, error: Array, own: Shares) -> Array:
     kept = own.chunk + sum(s * np.exp(-lags / 2.0**k) for k, s in enumerate(own.fading))
     size = error.transpose(0, 2, 1)  # (chunks, residuals, rows)
     variance = np.eye(len(lags)) + size[..., :, None] * size[..., None, :] * kept
-    root = np.linalg.cholesky(variance)
-    return np.linalg.solve(root, table.transpose(0, 2, 1, 3)).transpose(0, 2, 1, 3)
+    return np.asarray(np.linalg.inv(np.linalg.cholesky(variance)))

@@ -178,12 +178,11 @@ class SignalChecks:
         row; how often it changed."""
         before = self._last[-1:] if len(self._last) else own[:1]
         same = np.diff(np.concatenate([before, own]), axis=0) == 0.0
-        ended = np.zeros(own.shape[1])
-        for k in np.flatnonzero(~same.all(axis=0)).tolist():
-            turns = np.flatnonzero(~same[:, k])
-            ended[k] = max(self._run[k] + turns[0], *np.diff(turns), 0.0)
-        held = same[::-1].argmin(axis=0)  # samples that are equal at the end of the row
-        self._run = np.where(same.all(axis=0), self._run + len(own), held + 1.0)
+        number = np.arange(len(own))[:, None]
+        turns = np.maximum.accumulate(np.where(same, -self._run, number), axis=0)
+        ran = number - np.concatenate([-self._run[None], turns[:-1]])
+        ended = np.where(same, 0.0, ran).max(axis=0)
+        self._run = len(own) - turns[-1]
         return self._run.copy(), ended, 1.0 - same.mean(axis=0)
 
     def _first(self, own: Array, healthy: bool) -> None:
@@ -247,8 +246,9 @@ class SignalChecks:
         where the spike is."""
         near, next_, middle = _around(samples)
         off = np.abs(middle - near * self._weights[:, 0] - next_ * self._weights[:, 1])
-        neighbours = np.sort(np.stack([samples[1:-3], middle, samples[3:-1]]), axis=0)[1]
-        spike = np.minimum(off, np.abs(middle - neighbours))
+        before, after = samples[1:-3], samples[3:-1]
+        median = np.clip(middle, np.minimum(before, after), np.maximum(before, after))
+        spike = np.minimum(off, np.abs(middle - median))
         apart = np.abs(np.arange(len(spike))[:, None] - spike.argmax(axis=0)) > _SIDE
         second = np.where(apart, spike, 0.0).max(axis=0)
         where = np.where(apart, 0.0, off).argmax(axis=0)  # its neighbours are out by it as well

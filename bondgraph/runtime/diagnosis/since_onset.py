@@ -10,16 +10,17 @@ import numpy as np
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead
 from bondgraph.runtime.diagnosis.isolation import (
+    Case,
+    Evidence,
     Explained,
     ExplainedPair,
     Rows,
-    explain,
-    explain_pairs,
     inverse,
 )
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
+from bondgraph.text.tuples import NamedTuple
 
 #: Time constants of the filter, beside delays, that a residual may show late what has happened.
 _SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0)
@@ -37,7 +38,24 @@ _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made lo
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
+_AT_ONCE = 2**19  # slopes that onsets take side by side
 _GROWS = 3  # rows within which a residual has become as large as the fault makes it
+
+
+class _Begun(NamedTuple):
+    """Hypotheses, by their numbers, that begin so many healthy samples before the first row.
+
+    `slopes` are what they do to the rows, (rows, hypotheses, residuals), none where something is
+    held. Those with a size go on in the `bank`, `bent` where their slopes are secants; of what is
+    held there is what runs beside, and the rows as they would have been.
+    """
+
+    onset: int
+    numbers: Sequence[int]
+    slopes: Array
+    bank: Bank
+    bent: Mapping[int, float]
+    held: Mapping[int, tuple[Instead, list[Rows]]]
 
 
 class SinceOnset:
@@ -124,11 +142,11 @@ class SinceOnset:
         if self._known is not None:
             return self._known
         if not len(self._past) == len(self._rows) >= self._again:
-            found = self._found(history)
+            found = self._found(history)[1]
             self._known = found if len(self._rows) == MOST else None
             return found
-        self._dated(history, self._found(history) if self._again else ())
-        found = self._found(history)
+        self._dated(history, self._found(history)[1] if self._again else ())
+        evidence, found = self._found(history)
         self._again = 2 * len(self._rows)
         before: dict[int, tuple[float, float]] = {}
         for _ in range(_ROUNDS):
@@ -138,8 +156,9 @@ class SinceOnset:
             tried = {k: (changes.get(k, 0.0), change) for k, change in wanted.items()}
             earlier = {k: own for k, (own, _) in self._tried.items()}
             fresh = {k: self._next(k, before.get(k), tried[k]) for k in wanted}
-            self._try(earlier, {**changes, **fresh})
-            found, before = self._found(history), tried
+            moved = self._try(earlier, {**changes, **fresh})
+            again = {one.fault: one for one in self._anew(evidence, moved)}
+            found, before = [again.get(one.fault, one) for one in found], tried
         return found
 
     def pairs(
@@ -150,28 +169,44 @@ class SinceOnset:
         Two of the `singles`, each with its onset and size. How a fault sets in is not known:
         whether one is enough does not hang on that.
         """
-        rows, others = self._tables()
+        rows, (others,) = self._weighed([self._others])
         for one in (rows, *others.values()):
             one.weight[:] = 1.0 / (inverse(one.weight) + _early(one.value, 1.0))
-        alone = explain(rows, self._all, history, others)
-        return alone, explain_pairs(rows, self._all, history, singles)
+        evidence, case = Evidence(rows, history), Case(self._all, rows.slopes, others)
+        return evidence.explained([case])[0], evidence.pairs(case, singles)
 
-    def _found(self, history: History) -> list[Explained]:
-        """How well each fault explains the rows as they are known now."""
-        rows, others = self._tables()
-        return explain(rows, self._all, history, others)
+    def _found(self, history: History) -> tuple[Evidence, list[Explained]]:
+        """How well each fault explains the rows as they are known now, and what tells that."""
+        rows, (others,) = self._weighed([self._others])
+        evidence = Evidence(rows, history)
+        return evidence, evidence.explained([Case(self._all, rows.slopes, others)])[0]
 
-    def _tables(self) -> tuple[Rows, dict[int, Rows]]:
-        """The rows as they were told, and as they should have been told, by hypothesis."""
+    def _anew(self, evidence: Evidence, moved: Sequence[int]) -> list[Explained]:
+        """The same of the faults of hypotheses whose slopes have changed since then."""
+        faults = {self._all[k].fault for k in moved}
+        own = [k for k, one in enumerate(self._all) if one.fault in faults]
+        rows, (others,) = self._weighed([self._others])
+        others = {own.index(k): other for k, other in others.items() if k in own}
+        case = Case([self._all[k] for k in own], rows.slopes[:, own], others)
+        return evidence.explained([case])[0]
+
+    def _weighed(
+        self, cases: Sequence[Mapping[int, Sequence[Rows]]]
+    ) -> tuple[Rows, list[dict[int, Rows]]]:
+        """The rows as they were told, and as they should have been told in each of some cases.
+
+        All are compared by the same rows, at any onset.
+        """
         rows = _stacked(self._rows)
-        others = {k: _stacked(own) for k, own in self._others.items()}
-        for other in others.values():
+        found = [{k: _stacked(own) for k, own in others.items()} for others in cases]
+        every = [one for others in found for one in others.values()]
+        for other in every:
             self._unsaid |= np.isnan(other.weight[:_GROWS])
         early = _early(rows.value, _ERROR)
-        for one in (rows, *others.values()):  # all are compared by the same rows, at any onset
+        for one in (rows, *every):
             one.weight[:_GROWS][self._unsaid] = 0.0
             one.weight[:] = 1.0 / (inverse(one.weight) + early)
-        return rows, others
+        return rows, found
 
     def _dated(self, history: History, found: Sequence[Explained]) -> None:
         """Let each fault begin when it makes what was seen most probable.
@@ -181,21 +216,32 @@ class SinceOnset:
         """
         top = max((one.evidence for one in found), default=0.0)
         behind = {one.fault for one in found if one.evidence < top - _BEHIND}
-        best: dict[str, tuple[float, int]] = {}
+        every = [k for k, one in enumerate(self._all) if one.fault not in behind]
+        hypotheses, changes = [self._all[k] for k in every], self._changes()
+        best: dict[str, tuple[float, _Begun]] = {}
+        onsets, numbers = self._onsets(), len(self._past) * len(every) * self._slopes.shape[1]
+        at_once = max(1, _AT_ONCE // max(1, numbers))
+        for start in range(0, len(onsets), at_once):
+            begun = [self._begun(every, own, changes) for own in onsets[start : start + at_once]]
+            rows, others = self._weighed([
+                {every.index(k): told for k, (_, told) in one.held.items()} for one in begun
+            ])  # fmt: skip
+            cases = [Case(hypotheses, one.slopes, told)
+                     for one, told in zip(begun, others, strict=True)]  # fmt: skip
+            explained = Evidence(rows, history).explained(cases)
+            for trial, case in zip(begun, explained, strict=True):
+                for one in case:
+                    if one.fault not in best or one.evidence > best[one.fault][0]:
+                        best[one.fault] = one.evidence, trial
+        for trial in {own.onset: own for _, own in best.values()}.values():
+            self._take(trial, [k for k in every if best[self._all[k].fault][1] is trial])
+
+    def _onsets(self) -> list[int]:
+        """Healthy samples before the first row, with which a fault may have begun."""
         constant = 1.0 / (self._engine.bandwidth * self._engine.sample_time)
         lags = [round(lag / self._engine.sample_time) for lag in self._engine.lags]
-        every = [k for k, one in enumerate(self._all) if one.fault not in behind]
-        changes = self._changes()
-        for earlier in dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS):
-            if earlier <= len(self._healthy):
-                self._try(dict.fromkeys(every, earlier), changes)
-                for one in self._found(history):
-                    known = best.get(one.fault)
-                    if one.fault in behind:
-                        continue
-                    if known is None or one.evidence > known[0]:
-                        best[one.fault] = one.evidence, earlier
-        self._try({k: best[self._all[k].fault][1] for k in every}, changes)
+        found = dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS)
+        return [earlier for earlier in found if earlier <= len(self._healthy)]
 
     def _banked(
         self,
@@ -220,47 +266,60 @@ class SinceOnset:
         """What slopes are secants up to, where they are."""
         return {k: change for k, (_, change) in self._tried.items() if change is not None}
 
-    def _try(self, earlier: Mapping[int, int], changes: Mapping[int, float]) -> None:
+    def _try(self, earlier: Mapping[int, int], changes: Mapping[int, float]) -> list[int]:
         """The rows again of those that begin at another moment, or have another change, than now.
 
-        Slopes go as far as the changes.
+        Slopes go as far as the changes. Returns the numbers of these hypotheses.
         """
         wanted = {k: (own, changes.get(k)) for k, own in earlier.items()}
         moved = [k for k, one in wanted.items() if not _same(one, self._tried.get(k))]
         for onset in dict.fromkeys(earlier[k] for k in moved):
             own = [k for k in moved if earlier[k] == onset]
-            before, begin = self._onset(onset)
-            healthy = self._healthy[len(self._healthy) - onset :]
-            for k in own:
-                held = self._all[k].held
-                if held is not None:
-                    other = Bank(copied(before), self._tolerated, self._nominal, begin)
-                    self._instead[k] = Instead(other, held)
-                    self._instead[k].run(healthy, ())
-                    self._others[k] = self._held(k, self._past, self._rows, 0)
-                    self._tried[k] = wanted[k]
-            self._start([k for k in own if self._all[k].held is None], onset, changes)
+            self._take(self._begun(own, onset, changes), own)
+        return moved
 
-    def _start(self, own: Sequence[int], onset: int, changes: Mapping[int, float]) -> None:
-        """Let hypotheses with a size, by their numbers, begin at an onset; none may be left out."""
-        if not own:
-            return
+    def _begun(self, own: Sequence[int], onset: int, changes: Mapping[int, float]) -> _Begun:
+        """Let hypotheses, by their numbers, begin at an onset, and have the changes."""
         before, begin = self._onset(onset)
-        known = [self._all[k] for k in own]
-        bent = {at: changes[k] for at, k in enumerate(own) if k in changes}
+        healthy = self._healthy[len(self._healthy) - onset :]
+        held: dict[int, tuple[Instead, list[Rows]]] = {}
+        for k in own:
+            position = self._all[k].held
+            if position is not None:
+                other = Bank(copied(before), self._tolerated, self._nominal, begin)
+                beside = Instead(other, position)
+                beside.run(healthy, ())
+                held[k] = beside, _held(beside, self._past, self._rows, 0)
+        sized = [k for k in own if k not in held]
+        known = [self._all[k] for k in sized]
+        bent = {at: changes[k] for at, k in enumerate(sized) if k in changes}
         try:
             bank = self._banked(before, known, begin, bent)
         except ValueError:  # the model cannot take one of them
             bent, bank = {}, self._banked(before, known, begin, {})
-        bank.run(self._healthy[len(self._healthy) - onset :], ())
-        self._bank.take(bank, [self._sized.index(k) for k in own])
-        self._tried |= {k: (onset, bent.get(at)) for at, k in enumerate(own)}
-        if self._past:
-            slopes = bank.run(*_joined(self._past))
+        slopes = np.zeros((len(self._past), len(own), self._slopes.shape[1]))
+        if sized:
+            bank.run(healthy, ())
+        if sized and self._past:
+            slopes[:, [k not in held for k in own]] = bank.run(*_joined(self._past))
+        return _Begun(onset, own, slopes, bank, {sized[at]: x for at, x in bent.items()}, held)
+
+    def _take(self, begun: _Begun, numbers: Sequence[int]) -> None:
+        """Go on with some of the hypotheses that have begun so."""
+        sized = [k for k in begun.numbers if k not in begun.held]
+        chosen = [k for k in numbers if k not in begun.held]
+        self._bank.take(begun.bank.part([sized.index(k) for k in chosen]),
+                        [self._sized.index(k) for k in chosen])  # fmt: skip
+        for k in numbers:
+            self._tried[k] = begun.onset, begun.bent.get(k)
+            if k in begun.held:
+                self._instead[k], self._others[k] = begun.held[k]
+        if self._past and chosen:
+            slopes = begun.slopes[:, [begun.numbers.index(k) for k in chosen]]
             for row, one in zip(self._rows, slopes, strict=True):
-                row.slopes[own] = one
-            self._squares[own] = np.square(slopes).sum(axis=0)
-            self._slopes[own] = slopes[-1]
+                row.slopes[chosen] = one
+            self._squares[chosen] = np.square(slopes).sum(axis=0)
+            self._slopes[chosen] = slopes[-1]
 
     def _catch_up(self) -> None:
         """Run the banks over the rows that wait."""
@@ -277,37 +336,10 @@ class SinceOnset:
                 for (row, sigma), one in zip(rows, slopes, strict=True)
             ]
             for k, others in self._others.items():
-                others += self._held(k, rows, told, number)[:left]
+                others += _held(self._instead[k], rows, told, number)[:left]
             self._rows += told[:left]
             self._squares += np.square(slopes[:left]).sum(axis=0)
             self._past += rows[: max(0, BENT - len(self._past))]
-
-    def _held(
-        self, k: int, rows: Sequence[tuple[Row, Array]], told: Sequence[Rows], number: int
-    ) -> list[Rows]:
-        """Rows as they would be if a position was told that is held, `number` rows after the onset.
-
-        Residuals that have no value yet, in the first rows, have no weight (NaN) in any.
-        """
-        found: list[Rows] = []
-        if not rows:
-            return found
-        parts = zip(*self._instead[k].run(*_joined(rows)), strict=True)
-        for (row, sigma), one, (value, valid, rest, moved) in zip(rows, told, parts, strict=True):
-            value = value - row.mean
-            other = weight(row._replace(value=value, valid=valid), sigma)
-            other[one.weight == 0] = 0.0
-            other[~valid & (one.weight > 0)] = np.nan
-            new = moved if number + len(found) < _GROWS else moved & valid
-            found.append(
-                Rows(
-                    np.where(new, value, one.value),
-                    np.where(new, other, one.weight),
-                    np.where(new, rest, one.rest),
-                    one.slopes[:0],
-                )
-            )
-        return found
 
     def _bent(self, found: Sequence[Explained]) -> dict[int, float]:
         """Changes that are large and clear enough for a secant, by number of the hypothesis."""
@@ -337,6 +369,34 @@ class SinceOnset:
         if not nominal:
             return change
         return float((1.0 - np.clip(1.0 - change / nominal, _LEFT, _LARGEST)) * nominal)
+
+
+def _held(
+    beside: Instead, rows: Sequence[tuple[Row, Array]], told: Sequence[Rows], number: int
+) -> list[Rows]:
+    """Rows as they would be if a position was told that is held, `number` rows after the onset.
+
+    Residuals that have no value yet, in the first rows, have no weight (NaN) in any.
+    """
+    found: list[Rows] = []
+    if not rows:
+        return found
+    parts = zip(*beside.run(*_joined(rows)), strict=True)
+    for (row, sigma), one, (value, valid, rest, moved) in zip(rows, told, parts, strict=True):
+        value = value - row.mean
+        other = weight(row._replace(value=value, valid=valid), sigma)
+        other[one.weight == 0] = 0.0
+        other[~valid & (one.weight > 0)] = np.nan
+        new = moved if number + len(found) < _GROWS else moved & valid
+        found.append(
+            Rows(
+                np.where(new, value, one.value),
+                np.where(new, other, one.weight),
+                np.where(new, rest, one.rest),
+                one.slopes[:0],
+            )
+        )
+    return found
 
 
 def _joined(rows: Sequence[tuple[Row, Array]]) -> tuple[Array, list[int]]:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from bondgraph.ir.residual_limit import ShownSize
 from bondgraph.text.foreign_data import WrongData, json_data
 from bondgraph.text.limits import RATE
 from bondgraph.text.tuples import NamedTuple
@@ -52,7 +53,8 @@ class Tuning(NamedTuple):
 
     `false_alarms` are those wanted per hour, of all residuals and tests together; `model` is
     the digest of the residuals that it belongs to, `seconds` how much healthy data it is from.
-    `bounds` are the largest adaptive thresholds a in that data, by residual.
+    `bounds` are the largest adaptive thresholds a in that data, by residual. `shows` says by
+    residual and fault from which size on it shows within a `window` of seconds.
 
     >>> limits = {"r1": Limit(sigma=0.2, crossings=10.0, kappa=4.7, height=9.3)}
     >>> tuning = Tuning("7888fd5a1d32470a", 1000.0, 20.0, 1.0, 60.0, limits)
@@ -67,6 +69,8 @@ class Tuning(NamedTuple):
     seconds: float
     limits: Mapping[str, Limit]
     bounds: Mapping[str, float] = MappingProxyType({})
+    shows: Mapping[str, Mapping[str, ShownSize]] = MappingProxyType({})
+    window: float = 0.0
 
     def to_json(self) -> str:
         """A text for people and programs, as `bondgraph tune` writes it."""
@@ -75,6 +79,11 @@ class Tuning(NamedTuple):
             **self._asdict(),
             "limits": {name: limit._asdict() for name, limit in self.limits.items()},
             "bounds": dict(self.bounds),
+            "shows": {
+                name: {fault: [x if math.isfinite(x) else None for x in size]
+                       for fault, size in faults.items()}
+                for name, faults in self.shows.items()
+            },
         }
         return json.dumps(record, indent=2) + "\n"
 
@@ -99,6 +108,11 @@ class Tuning(NamedTuple):
                 _number(record, "seconds", 0.0),
                 limits,
                 {str(n): _number(record["bounds"], n, 0.0) for n in record.get("bounds", {})},
+                {
+                    str(name): {str(fault): _shown(faults, fault) for fault in faults}
+                    for name, faults in record.get("shows", {}).items()
+                },
+                _number({"window": 0.0} | record, "window", 0.0),
             )
         except (KeyError, TypeError, AttributeError, OverflowError) as error:
             raise ValueError(f"this is no tuning: {error}") from error
@@ -113,6 +127,15 @@ def _number(record: Mapping[str, Any], key: str, least: float, most: float = _MO
     if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value <= most:
         raise ValueError(f"`{key}` of a tuning is a number from {least:g} to {most:g}")
     return float(value)
+
+
+def _shown(faults: Mapping[str, Any], fault: str) -> ShownSize:
+    """The sizes of a fault in a tuning: null is for one that never shows."""
+    least, sure = faults[fault]
+    known = {"least": least, "sure": sure}
+    return ShownSize(
+        *(math.inf if known[k] is None else _number(known, k, 0.0) for k in ("least", "sure"))
+    )
 
 
 _NEVER = Limit(math.inf, 1.0, 1.0, math.inf)

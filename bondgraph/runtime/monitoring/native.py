@@ -162,6 +162,7 @@ class _Monitor:
         self.memory = np.zeros(functions.size, dtype=np.uint8)
         self.address = self.memory.ctypes.data
         self.columns: npt.NDArray[np.int32] = np.array(setting.columns(runnable), dtype=np.int32)
+        self.columns_address = self.columns.ctypes.data
         values = np.array(setting.values(runnable), dtype=np.float64)
         sample_time = 1.0 / runnable.program.rate
         status = functions.configure(
@@ -191,22 +192,26 @@ def _run(
         got = None if received is None else received.reshape(count * rows, -1)
         taken = first._setting.table(samples.reshape(count * rows, -1), got)
         width = taken.shape[1]
-    places = (taken.ctypes.data + numbers * (rows * width * taken.itemsize)).astype(np.uintp)
     shape = (len(engines), rows, len(first.residuals))
-    value = np.empty(shape)
+    value, bound = results = np.empty((2, *shape))
     valid = np.empty(shape, dtype=np.bool_)
-    bound = np.empty(shape) if len(first._monitors) > 1 else np.zeros(shape)
-    results = [value.ctypes.data, valid.ctypes.data, bound.ctypes.data]
+    if len(first._monitors) == 1:
+        bound[:] = 0.0
+    found = results.ctypes.data  # to ask for an address takes as long as some samples
+    pointers = [found, valid.ctypes.data, found + value.nbytes]
+    places = np.empty((1 + len(first._monitors), len(engines)), dtype=np.uintp)
+    places[0] = taken.ctypes.data + numbers * (rows * width * taken.itemsize)
+    places[1:] = [[e._monitors[k].address for e in engines] for k in range(len(first._monitors))]
+    at = places.ctypes.data
     for k, monitor in enumerate(first._monitors):
-        addresses = np.array([e._monitors[k].address for e in engines], dtype=np.uintp)
         monitor.functions.run(
-            addresses.ctypes.data,
+            at + (1 + k) * places.strides[0],
             len(engines),
-            places.ctypes.data,
+            at,
             rows,
             width,
-            monitor.columns.ctypes.data,
-            *results[: 2 + k],
+            monitor.columns_address,
+            *pointers[: 2 + k],
         )
     return Batch(value, valid, bound)
 

@@ -14,9 +14,9 @@ import pytest
 
 import bondgraph
 from bondgraph import Course, Fault, Instrument, Scenario
-from bondgraph.backends.decision import fault_classes
+from bondgraph.backends.decision import ANY, NO_SIZE, UNSEEN, fault_classes
 from bondgraph.backends.write import write
-from bondgraph.ir.residual_limit import ResidualLimit
+from bondgraph.ir.residual_limit import ResidualLimit, ShownSize
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.cusum import on_board
@@ -27,7 +27,11 @@ from tests.unit.backends.compilers import WARNINGS, compiler, python_module, run
 _MODEL = "models/dc_motor.bg"
 
 # what the residuals of the motor see, read off its equations: r1 is the armature, r2 the rotor
-_MOTOR = {("L", "R", "U"): (3, 0), ("k", "current", "speed"): (3, 3), ("J", "f", "load"): (0, 3)}
+_MOTOR = {
+    ("L", "R", "U"): (True, False),
+    ("k", "current", "speed"): (True, True),
+    ("J", "f", "load"): (False, True),
+}
 
 
 @pytest.fixture(scope="module")
@@ -57,13 +61,17 @@ _LEVEL = ResidualLimit(0.0, 1.0, 0.0, 0.0, 0.5, 1e30, 0.0)  # of samples alone
 
 
 def test_classes_are_the_rows_of_the_signature_matrix(motor: ModuleType) -> None:
-    assert dict(zip(motor.CLASSES, motor._SIGNATURES, strict=True)) == _MOTOR
+    tables = zip(motor._LEAST_SIZES, motor._SURE_SIZES, strict=True)
+    rows = [tuple(zip(least, sure, strict=True)) for least, sure in tables]
+    sees = {(UNSEEN, NO_SIZE): False, (1, ANY): True}  # without a tuning of any size
+    found = {c: tuple(map(sees.get, row)) for c, row in zip(motor.CLASSES, rows, strict=True)}
+    assert found == _MOTOR
 
 
 def test_a_switched_machine_exonerates_nobody() -> None:
     classes = fault_classes(bondgraph.compile("models/oven.bg").program)
-    assert classes and not any(any(c.shows) for c in classes)
-    assert all(any(c.sees) for c in classes)
+    assert classes and all(set(c.sure) == {NO_SIZE} for c in classes)
+    assert all(any(c.least) for c in classes)
 
 
 def test_an_alarm_takes_samples_in_a_row_and_ends_with_hysteresis(motor: ModuleType) -> None:
@@ -112,6 +120,37 @@ def test_who_is_quiet_speaks_against_a_fault_and_who_is_blind_does_not(motor: Mo
     }
     for values, expected in told.items():
         assert _candidates(motor, *values) == expected
+
+
+@pytest.mark.parametrize(("least", "sure"), [(1.0, 4.0), (0.3, 1.0), (2.0, 40.0)])
+def test_who_is_quiet_speaks_against_a_fault_only_from_the_size_on_that_it_shows(
+    tmp_path: Path, least: float, sure: float
+) -> None:
+    """The first residual is out by x times what makes it sure to be: the fault is `least` x."""
+    c = bondgraph.compile(_MODEL)
+    limit = Limit(sigma=1.0, crossings=1.0, kappa=4.0, height=9.0)
+    both = {f: (ShownSize(least, 1.0), ShownSize(1.0, sure)) for f in ("k", "current", "speed")}
+    shows = {name: {f: pair[k] for f, pair in both.items()} for k, name in enumerate(("r1", "r2"))}
+    window = 0.5  # s
+    program = c.program
+    tuning = Tuning(program.digest, program.rate, program.bandwidth, 1.0, 60.0,
+                    {"r1": limit, "r2": limit}, {"r1": 0.5}, shows, window)  # fmt: skip
+    c.tuned(tuning).write(tmp_path, targets=["python"])
+    module = python_module(tmp_path, "motor")
+    place = module.CLASSES.index(("k", "current", "speed"))
+    turn = sure / least  # what x is where the second residual has to show it
+    for factor in (0.5, 0.83, 1.2, 3.0):  # two roundings to eighths of an octave are 19 %
+        found = module.Diagnosis()
+        value = factor * turn * (4.0 + 2.0 * 0.5) + 4.0 + 0.5  # beyond bound and noise
+        told = []
+        for _ in range(round(1.2 * window * program.rate) + found.row):
+            found.update(_residuals(module, value, 0.0))
+            told.append(found.candidate[place])
+        quiet = module.SMALL if factor > 1.0 else module.LIKELY
+        assert told[-1] == quiet
+        assert set(told[: round(window * program.rate)]) == {module.RULED_OUT, module.LIKELY}
+        assert found.candidate[module.CLASSES.index(("L", "R", "U"))] == module.LIKELY
+        assert (found.fault_class is None) == (quiet == module.LIKELY)
 
 
 def test_a_class_waits_for_residuals_that_come_later(motor: ModuleType) -> None:
@@ -190,8 +229,8 @@ int main(int count, char **words)
         alarm = motor_diagnose(&found, limits, bounds, &r);
         printf("%d %d", alarm, found.fault_class);
         for (k = 0; k < MOTOR_RESIDUALS; ++k) {
-            printf(" %d %u %a %a %a", found.state[k], (unsigned)found.since[k], found.above[k],
-                found.below[k], found.louder[k]);
+            printf(" %d %u %a %a %a %a", found.state[k], (unsigned)found.since[k], found.above[k],
+                found.below[k], found.louder[k], found.peak[k]);
         }
         for (k = 0; k < MOTOR_CLASSES; ++k) printf(" %d", found.candidate[k]);
         printf("\\n");
@@ -230,7 +269,7 @@ def _in_python(motor: ModuleType, found: Any, course: tuple[np.ndarray, ...]) ->
         one = -1 if found.fault_class is None else found.fault_class
         words = [int(alarm), one]
         for k, sums in enumerate(found._sums):
-            words += [found.state[k], found.since[k], *sums]
+            words += [found.state[k], found.since[k], *sums, found._peak[k]]
         lines.append(" ".join(map(_exact, [*words, *found.candidate])))
     return lines
 
@@ -319,17 +358,17 @@ def test_a_healthy_log_gives_no_alarm_and_a_stuck_sensor_its_class(tuned: Path) 
 
 
 @pytest.mark.parametrize(
-    ("of", "change", "value", "own", "large"),
+    ("of", "change", "value", "own", "large", "named"),
     [
-        ("R", "*=", 1.4, "L", True),
-        ("f", "*=", 2.0, "J", True),
-        ("current", "+=", 0.1, "k", True),
-        ("R", "*=", 1.03, "L", False),  # the monitor learns this machine, the code has tolerances
-        ("f", "*=", 1.0, "J", False),
+        ("R", "*=", 1.4, "L", True, False),  # or a current that is off, as far as levels tell
+        ("f", "*=", 2.0, "J", True, False),
+        ("current", "+=", 0.1, "k", True, True),
+        ("R", "*=", 1.03, "L", False, False),  # the monitor learns this machine, code does not
+        ("f", "*=", 1.0, "J", False, False),
     ],
 )
 def test_alarms_are_those_of_the_monitor(
-    tuned: Path, of: str, change: Any, value: float, own: str, large: bool
+    tuned: Path, of: str, change: Any, value: float, own: str, large: bool, named: bool
 ) -> None:
     c, tuning = _compiled(), _tuning()
     log = c.simulate(_scenario(11, Fault(of, change, value, at=20.0))).log
@@ -351,7 +390,8 @@ def test_alarms_are_those_of_the_monitor(
     out = {n for n, s in zip(module.RESIDUALS, found.state, strict=True) if s == module.ALARM}
     assert set(alarms[0].residuals) <= out
     true = next(k for k, faults in enumerate(module.CLASSES) if own in faults)
-    assert found.candidate[true] == module.LIKELY and found.fault_class == true
+    assert found.candidate[true] == module.LIKELY
+    assert found.fault_class == (true if named else None)
 
 
 def test_a_tuning_of_another_model_is_refused() -> None:

@@ -140,6 +140,8 @@ SUBMODELS = [
     (LOAD + "model M { Se:U -> 1:j; Load:p(R = j.f); j -> p }", ["not-constant"]),
     (LOAD + "model M { Se:U -> Load:p(R = 1) = 3 }", ["not-an-element"]),
     (LOAD + "model M { Se:U -> Load:p(R = 1); Se:V -> p.b }", ["unknown-port"]),
+    ("model A { port p : in any; input u; p -> MSe:s = u }\n"
+     "model M { 0:a { <- Se:U; -> A:b(u = 1) }; b.u -> R:r = 1 }", ["unknown-port"]),
     (LOAD + "model M { Se:U -> Load:p(R = 1); Se:V -> p }", ["too-many-bonds"]),
     (LOAD + "model M { Se:U -> Load:p(R = 1); Se:V -> p.R }", ["hidden-node"]),
     (LOAD + "model M { Load:p[2](R = 1); Se:U -> p[3]; }", ["index-out-of-range"]),

@@ -16,10 +16,11 @@ from bondgraph.runtime.diagnosis.healthy import as_it_is
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import (
+    Case,
+    Evidence,
     Explained,
     Rows,
     explain,
-    explain_pairs,
     probabilities,
 )
 from bondgraph.runtime.diagnosis.naming import named, update
@@ -100,7 +101,7 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
     rows = Rows(value[before:], weight[before:], rest[before:], slopes)
     singles = explain(rows, hypotheses, history)
     found = {e.fault: e for e in singles}
-    (pair,) = explain_pairs(rows, hypotheses, history, singles)
+    (pair,) = Evidence(rows, history).pairs(Case(hypotheses, slopes), singles)
 
     shared = _flat(rest)
     healthy = np.diag(1.0 / weight.ravel()) + shared @ np.diag(spread**2) @ shared.T

@@ -114,6 +114,38 @@ def test_the_smallest_fault_is_the_limit_over_the_slope_at_the_end_of_a_window()
         assert found[key].residual == "r1"
 
 
+def test_from_which_size_on_each_residual_shows_a_fault() -> None:
+    """Two loops share R: their slopes are i and 5 j, and the smaller of the sizes is the unit."""
+    text = """bg 1
+model M {
+    param R = 2 Ohm
+    1:s { <- Se:U; -> R:r = R; -> Df:i }
+    1:t { <- Se:V; -> R:q = 5*R; -> Df:j }
+}
+"""
+    engine = Compilation(Source("m.bg", text), None, Options(rate=1 / _STEP))
+    own = engine.engine(native=False)
+    assert [k.path for k in own.signals] == ["U", "V", "i", "j"]
+    first, second, big = 3.0, 0.5, 20.0  # of U and i, and of V and j; the window is long: 20/b
+    draw = np.random.default_rng(5)
+    noise = draw.normal(0.0, _NOISE, (_COUNT, 2)) * [1.0, big]
+    columns = [np.full(_COUNT, 2.0 * first), np.full(_COUNT, 10.0 * second)]
+    log = np.column_stack([*columns, first + noise[:, 0], second + noise[:, 1]])
+    known = tune(own, engine.diagnosis_model, [log], "digest", 2.0, 1.0).tuning
+    assert known.window == 1.0 + own.lags[-1]
+    by_fault = {f: r.name for r in engine.program.residuals for f in ("U", "V") if f in r.faults}
+    slopes = {by_fault["U"]: first, by_fault["V"]: 5.0 * second}
+    tops = {n: known.limits[n].kappa * known.limits[n].sigma for n in slopes}
+    sizes = {n: tops[n] / slope for n, slope in slopes.items()}
+    assert 5.0 < sizes[by_fault["V"]] / sizes[by_fault["U"]] < 200.0
+    for name, size in sizes.items():
+        shown = known.shows[name]["R"]
+        for number in shown:  # a slope is as noisy as the current: at the peak of a window more
+            assert number == pytest.approx(size / min(sizes.values()), rel=0.15)
+        assert shown.least <= shown.sure
+    assert set(known.shows[by_fault["U"]]) == {"R", "U", "i"}
+
+
 @pytest.mark.parametrize("first", [True, False])
 def test_a_limit_stays_above_what_a_healthy_machine_has_reached(first: bool) -> None:
     engine = model().engine(native=False).configured(bandwidth=300.0)
@@ -157,7 +189,7 @@ def test_samples_that_are_missing_do_not_count_as_noise() -> None:
     ],
 )
 def test_what_is_sure_to_show_shows_in_nine_windows_of_ten(sizes: list[float], size: float) -> None:
-    windows = [_Seen(s, 0.1 * s, 0) for s in sizes]
+    windows = [_Seen(s, 0.1 * s, 0, np.array([s]), np.array([s])) for s in sizes]
     shown = _shown(Hypothesis("R", "value", "", 0.1, False), windows, ["r1"])
     assert shown.size == size
     assert sum(s <= size for s in sizes) >= 0.9 * len(sizes)

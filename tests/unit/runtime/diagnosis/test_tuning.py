@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from bondgraph.ir.residual_limit import ShownSize
 from bondgraph.runtime.diagnosis.tuning import (
     Limit,
     Tuning,
@@ -41,6 +43,12 @@ def test_noise_crosses_a_level_as_often_as_wanted() -> None:
 def test_a_tuning_is_read_back_and_other_texts_are_not() -> None:
     tuning = Tuning("abc", 1000.0, 20.0, 2.0, 300.0, {"r1": Limit(0.1, 3.0, 4.5, 10.0)})
     assert Tuning.from_json(tuning.to_json()) == tuning
+    sizes = {"r1": {"R": ShownSize(0.5, math.inf), "L": ShownSize(1.0, 3.0)}}
+    more = tuning._replace(bounds={"r1": 0.2}, shows=sizes, window=2.0)
+    assert Tuning.from_json(more.to_json()) == more
+    for wrong in ("-1.0", "[1.0]", '"r1"'):
+        with pytest.raises(ValueError, match="tuning"):
+            Tuning.from_json(more.to_json().replace("0.5", wrong, 1))
     other = tuning.to_json().replace('"bondgraph tuning": 1', '"bondgraph tuning": 9')
     for text in ("", "{}", "[1]", "3", tuning.to_json().replace("sigma", "sigmo"), other):
         with pytest.raises(ValueError, match=r"tuning|edition"):
