@@ -131,11 +131,11 @@ def _number(record: Mapping[str, Any], key: str, least: float, most: float = _MO
 
 def _shown(faults: Mapping[str, Any], fault: str) -> ShownSize:
     """The sizes of a fault in a tuning: null is for one that never shows."""
-    least, sure = faults[fault]
-    known = {"least": least, "sure": sure}
-    return ShownSize(
-        *(math.inf if known[k] is None else _number(known, k, 0.0) for k in ("least", "sure"))
-    )
+    sizes = faults[fault]
+    if not isinstance(sizes, list) or len(sizes) != len(ShownSize._fields):
+        raise ValueError("`shows` of a tuning has two sizes for each fault")
+    known = dict(zip(ShownSize._fields, sizes, strict=True))
+    return ShownSize(*(math.inf if x is None else _number(known, k, 0.0) for k, x in known.items()))
 
 
 _NEVER = Limit(math.inf, 1.0, 1.0, math.inf)
