@@ -692,7 +692,8 @@ class Diagnosis:
 
     def _judge(self) -> None:
         """Which classes of faults the residuals leave, and the one if it is one."""
-        peaks = [_eighths(x) if s == ALARM else -1 for x, s in zip(self._peak, self.state)]
+        both = zip(self.state, self._peak, strict=True)
+        peaks = [_eighths(peak) if state == ALARM else -1 for state, peak in both]
         self.candidate = [self._left(c, peaks) for c in range(len(CLASSES))]
         one = self.candidate.count(LIKELY) == 1 and self._settled >= 2 * self.row
         self.fault_class = self.candidate.index(LIKELY) if one else None

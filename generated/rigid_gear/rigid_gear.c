@@ -559,6 +559,76 @@ static const uint8_t sure_size[RIGID_GEAR_CLASSES][RIGID_GEAR_RESIDUALS] = {
     {0u, 0u},
 };
 
+/* The peak of residual k since it went into alarm, beside what is sure to be one. */
+static void remember_peak(
+    rigid_gear_diagnosis *d, const rigid_gear_limit *limit, int k, real out, real bound)
+{
+    const real over = out - limit->level;
+    const real sure = limit->level + bound + bound;
+
+    if (over > d->peak[k] * sure && sure > REAL(0.0)) {
+        d->peak[k] = over / sure;
+    }
+}
+
+/* A peak in eighths of an octave above a sixteenth of what is sure to be an alarm. */
+static int eighths(real peak)
+{
+    real top = REAL(0.0625);
+    int n;
+
+    for (n = 0; n < 255; ++n) {
+        if (peak < top) {
+            return n;
+        }
+        top *= REAL(1.0905077326652577);
+    }
+    return 255;
+}
+
+/* How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out. */
+static int size_of(const rigid_gear_diagnosis *d, int c)
+{
+    int size = 0;
+    int k;
+
+    for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
+        if (d->state[k] == RIGID_GEAR_ALARM) {
+            const int n = eighths(d->peak[k]);
+
+            if (least_size[c][k] == 0u) {
+                return -1;
+            }
+            if (n > 0 && n + (int)least_size[c][k] > size) {
+                size = n + (int)least_size[c][k];
+            }
+        }
+    }
+    return size;
+}
+
+/* What is left of the faults of class c. */
+static rigid_gear_candidate left_of(const rigid_gear_diagnosis *d, int c)
+{
+    const int size = size_of(d, c);
+    int k;
+
+    if (size < 0) {
+        return RIGID_GEAR_RULED_OUT;
+    }
+    if (d->settled < d->window) {
+        return RIGID_GEAR_LIKELY; /* too soon for what is quiet to say anything */
+    }
+    for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
+        const int sure = (int)sure_size[c][k];
+
+        if (d->state[k] == RIGID_GEAR_HEALTHY && sure != 255 && sure <= size) {
+            return RIGID_GEAR_SMALL;
+        }
+    }
+    return RIGID_GEAR_LIKELY;
+}
+
 #define NEVER REAL(1e30) /* a limit that nothing exceeds */
 #define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
 #define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
@@ -617,18 +687,6 @@ static bool is_within(const rigid_gear_limit *limit, real value, real bound)
     return excess(value - limit->mean, bound) <= limit->level;
 }
 
-/* The peak of residual k since it went into alarm, beside what is sure to be one. */
-static void remember_peak(
-    rigid_gear_diagnosis *d, const rigid_gear_limit *limit, int k, real out, real bound)
-{
-    const real over = out - limit->level;
-    const real sure = limit->level + bound + bound;
-
-    if (over > d->peak[k] * sure && sure > REAL(0.0)) {
-        d->peak[k] = over / sure;
-    }
-}
-
 /* Residual k in one sample; whether it goes into alarm. */
 static bool watch(
     rigid_gear_diagnosis *d, const rigid_gear_limit *limit, int k, real value, real bound, bool row)
@@ -658,59 +716,6 @@ static bool watch(
     d->peak[k] = REAL(0.0);
     remember_peak(d, limit, k, out, bound);
     return true;
-}
-
-/* A peak in eighths of an octave above a sixteenth of what is sure to be an alarm. */
-static int eighths(real peak)
-{
-    real top = REAL(0.0625);
-    int n = 0;
-
-    while (n < 255 && peak >= top) {
-        top *= REAL(1.0905077326652577);
-        ++n;
-    }
-    return n;
-}
-
-/* How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out. */
-static int size_of(const rigid_gear_diagnosis *d, int c)
-{
-    int size = 0;
-    int k;
-
-    for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
-        if (d->state[k] == RIGID_GEAR_ALARM) {
-            const int n = eighths(d->peak[k]);
-
-            if (least_size[c][k] == 0u) {
-                return -1;
-            }
-            if (n > 0 && n + (int)least_size[c][k] > size) {
-                size = n + (int)least_size[c][k];
-            }
-        }
-    }
-    return size;
-}
-
-/* What is left of the faults of class c. */
-static rigid_gear_candidate left_of(const rigid_gear_diagnosis *d, int c)
-{
-    const int size = size_of(d, c);
-    int k;
-
-    if (size < 0) {
-        return RIGID_GEAR_RULED_OUT;
-    }
-    for (k = 0; k < RIGID_GEAR_RESIDUALS && d->settled >= d->window; ++k) {
-        const int sure = (int)sure_size[c][k];
-
-        if (d->state[k] == RIGID_GEAR_HEALTHY && sure != 255 && sure <= size) {
-            return RIGID_GEAR_SMALL;
-        }
-    }
-    return RIGID_GEAR_LIKELY;
 }
 
 /* Which classes of faults the residuals leave, and the one if it is one. */

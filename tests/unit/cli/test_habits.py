@@ -110,9 +110,12 @@ def test_watch_does_it_again_and_ends_at_an_interrupt(command: str, tmp_path: Pa
         running = subprocess.Popen(words, cwd=tmp_path, stdout=stream, stderr=stream)
         try:
             until("^C ends", out)
-            model.write_text(MOTOR.read_text().replace("-> R:R", "-> R:Q"))
+            other = tmp_path / "other.bg"  # what is half written would be looked at once more
+            other.write_text(MOTOR.read_text().replace("-> R:R", "-> R:Q"))
+            other.replace(model)
             until("error", out)
-            shutil.copy(MOTOR, model)
+            shutil.copy(MOTOR, other)
+            other.replace(model)
             text = until("error", out)
             end = time.monotonic() + 60.0
             while text.count("^C ends") < 3 and time.monotonic() < end:
