@@ -92,8 +92,9 @@ def fault_classes(program: Program, tuned: Tuned = UNTUNED) -> tuple[FaultClass,
 def _of_class(faults: Sequence[str], shown: Mapping[str, ShownSize]) -> tuple[int, int]:
     """The codes of one residual for any of some faults; both are on the safe side."""
     known = [shown[f] for f in faults if f in shown]
-    least = min((size.least for size in known), default=0.0)
-    sure = max(size.sure for size in known) if len(known) == len(faults) else inf
+    if len(known) < len(faults):  # one that never moved it in the log: no level says its size
+        return 1, NO_SIZE
+    least, sure = min(size.least for size in known), max(size.sure for size in known)
     low = floor(8.0 * log2(least)) + LEAST if least > 0.0 else 1
     high = ceil(8.0 * log2(sure) - 8.0 * log2(FIRST)) + LEAST + 1 if 0.0 < sure < inf else NO_SIZE
     return min(max(low, 1), NO_SIZE - 1), min(max(high, 1), NO_SIZE)

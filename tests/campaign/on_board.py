@@ -101,6 +101,7 @@ def _said(machine: Machine, samples: Array, qemu: bool) -> list[Said]:
         program = _program(machine, qemu)
         host = f"enable=on,target=native,arg=watch,arg={log}"
         command = [*_QEMU, program, "-semihosting-config", host] if qemu else [program, log]
+        # whether all was read is in the last line: the image has no status of its own
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if "samples, " not in done.stdout:
             raise RuntimeError(f"{done.stdout}\n{done.stderr}")

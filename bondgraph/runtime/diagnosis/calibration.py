@@ -355,12 +355,14 @@ def _by_fault(
         last = len(moved) - 1
         least = np.sort([s.least / unit for s, unit in moved], axis=0)[math.floor(_LEAST * last)]
         sure = np.sort([s.sure / unit for s, unit in moved], axis=0)[math.ceil(_SURE * last)]
-        for k, name in enumerate(residuals):
-            if math.isfinite(least[k]):
-                own = ShownSize(float(least[k]), float(sure[k]))
-                was = by[name].get(one.fault, own)
-                by[name][one.fault] = ShownSize(min(was.least, own.least), max(was.sure, own.sure))
-    return by
+        for k, name in enumerate(residuals):  # a way that does not move one may be what is wrong
+            own = ShownSize(float(least[k]), float(sure[k]))
+            was = by[name].get(one.fault, own)
+            by[name][one.fault] = ShownSize(min(was.least, own.least), max(was.sure, own.sure))
+    return {
+        name: {f: size for f, size in faults.items() if math.isfinite(size.least)}
+        for name, faults in by.items()
+    }
 
 
 def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[str]) -> Shown:

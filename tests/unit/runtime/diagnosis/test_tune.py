@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from bondgraph.ir.residual_limit import ShownSize
 from bondgraph.pipeline import Compilation, Options
-from bondgraph.runtime.diagnosis.calibration import Tuned, _Seen, _shown, tune
+from bondgraph.runtime.diagnosis.calibration import Tuned, _by_fault, _Seen, _shown, tune
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
 from bondgraph.text.source import Source
@@ -144,6 +145,16 @@ model M {
             assert number == pytest.approx(size / min(sizes.values()), rel=0.15)
         assert shown.least <= shown.sure
     assert set(known.shows[by_fault["U"]]) == {"R", "U", "i"}
+
+
+def test_a_way_that_does_not_move_a_residual_is_not_ruled_out_by_its_silence() -> None:
+    """A sensor's offset moves both residuals, its gain the first only, a reading of zero none."""
+    ways = [Hypothesis("i", kind, "A", 1.0, False) for kind in ("offset", "gain", "drift")]
+    inf = math.inf
+    sizes = ([2.0, 6.0], [5.0, inf], [inf, inf])
+    windows = [[_Seen(min(s), 1.0, 0, np.array(s), np.array(s))] for s in sizes]
+    found = _by_fault(ways, windows, ["r1", "r2"])
+    assert found == {"r1": {"i": ShownSize(1.0, 1.0)}, "r2": {"i": ShownSize(3.0, inf)}}
 
 
 @pytest.mark.parametrize("first", [True, False])
