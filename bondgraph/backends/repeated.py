@@ -29,6 +29,7 @@ def repeated(ops: Sequence[TapeOp]) -> tuple[list[TapeOp], list[Run]]:
     """
     lines: list[TapeOp] = []
     runs: list[Run] = []
+    tape = _Tape(ops)
     at = single = 0
 
     def alone(end: int) -> None:
@@ -37,7 +38,7 @@ def repeated(ops: Sequence[TapeOp]) -> tuple[list[TapeOp], list[Run]]:
             lines.extend(ops[single:end])
 
     while at < len(ops):
-        count, times, grow = _again(ops, at)
+        count, times, grow = tape.again(at)
         if count * (times - 1) < 8:  # a run is a line too
             at += 1
             continue
@@ -49,24 +50,40 @@ def repeated(ops: Sequence[TapeOp]) -> tuple[list[TapeOp], list[Run]]:
     return lines, runs
 
 
-def _again(ops: Sequence[TapeOp], at: int) -> tuple[int, int, int]:
-    """Of what stands at a place, the count of lines that are repeated most, how often and how."""
-    best = (1, 1, 0)
-    for count in range(1, min(_LONGEST, (len(ops) - at) // 2) + 1):
-        first, second = ops[at], ops[at + count]
-        grow = second.length - first.length
-        if grow < 0 or not _follows(first, second, grow):
-            continue
-        end = at + count
-        while end < len(ops) and _follows(ops[end - count], ops[end], grow):
-            end += 1
-        times = (end - at) // count
-        if count * (times - 1) > best[0] * (best[1] - 1):
-            best = count, times, grow
-        if times > 1 and end == len(ops):
-            break
-    return best
+class _Tape:
+    """The lines of a recipe: which are alike but for their lengths, and where the next such is."""
 
+    def __init__(self, ops: Sequence[TapeOp]) -> None:
+        forms: dict[tuple[int, int, int, int, bool], int] = {}
+        self.lengths = [op.length for op in ops]
+        self.forms = [
+            forms.setdefault((op.target, op.source, op.shift, op.scale, op.fresh), len(forms))
+            for op in ops
+        ]
+        self.next = [len(ops)] * len(ops)  # the place of the next line of the same form
+        behind: dict[int, int] = {}
+        for at in range(len(ops) - 1, -1, -1):
+            self.next[at] = behind.get(self.forms[at], len(ops))
+            behind[self.forms[at]] = at
 
-def _follows(one: TapeOp, other: TapeOp, grow: int) -> bool:
-    return one._replace(length=one.length + grow) == other
+    def again(self, at: int) -> tuple[int, int, int]:
+        """Of what stands at a place, the count of lines that are repeated most, how often, how."""
+        forms, lengths, size = self.forms, self.lengths, len(self.forms)
+        best, second = (1, 1, 0), self.next[at]
+        while second <= at + min(_LONGEST, (size - at) // 2) and second < size:
+            count, grow = second - at, lengths[second] - lengths[at]
+            if grow >= 0:
+                end = second + 1
+                while (
+                    end < size
+                    and forms[end] == forms[end - count]
+                    and lengths[end] == lengths[end - count] + grow
+                ):
+                    end += 1
+                times = (end - at) // count
+                if count * (times - 1) > best[0] * (best[1] - 1):
+                    best = count, times, grow
+                if times > 1 and end == size:
+                    break
+            second = self.next[second]
+        return best
