@@ -7,6 +7,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
+# Hundreds of commands run in the tests, and each would compile the compiler anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := help
 .PHONY: help run demo robots test check lint types imports docs site wheel bench vscode edits update fuzz random real mutants faults kills account vendored clean
 
