@@ -23,7 +23,7 @@ from bondgraph.field.numbers import Number, Numbers, Undefined
 from bondgraph.field.sparse import CONSTANT, Row
 from bondgraph.ir.expr import Expr
 
-_STEPS = 200  # of Newton's method, before another random point is better
+_SHORTEST_RUN = 32  # evaluations of the laws: where there is a way, most runs need 6 to 16
 _SHORTEST = arb(2) ** -14  # share of a step below which there is no way on
 _CLOSE = arb(2) ** -160  # of a step to the point: what follows is shorter, or it is rounding
 
@@ -45,12 +45,32 @@ class Begun(Protocol):
         ...
 
 
-def together(point: Begun, equations: Sequence[Equation], stride: int) -> dict[int, Number]:
+def budget(attempt: int) -> int:
+    """How often an attempt to find a point may evaluate the laws; 0 if it solves one by one.
+
+    Every second one is begun anew by the universal sequence 1, 1, 2, 1, 1, 2, 4, 1, ...: whatever a
+    run needs, this takes little more than the best time to give up (Luby, Sinclair and Zuckerman,
+    Optimal Speedup of Las Vegas Algorithms, 1993, section 3).
+
+    >>> [budget(2 * k + 1) // 32 for k in range(15)]
+    [1, 1, 2, 1, 1, 2, 4, 1, 1, 2, 1, 1, 2, 4, 8]
+    """
+    if attempt % 2 == 0:
+        return 0
+    at = attempt // 2 + 1
+    while at & (at + 1):  # the sequence up to 2**k - 1 is twice that up to 2**(k - 1) - 1 before
+        at -= (1 << (at.bit_length() - 1)) - 1
+    return _SHORTEST_RUN * (at + 1) // 2
+
+
+def together(
+    point: Begun, equations: Sequence[Equation], stride: int, evaluations: int
+) -> dict[int, Number]:
     """Values of the open columns at which these laws hold, in balls; raises `Undefined`."""
     laws = _Laws(point, equations, stride)
     x = [point.numbers.any(point.random) for _ in laws.columns]
     value, slopes = laws.at(x)
-    for _ in range(_STEPS):
+    while True:
         step = _step(slopes, value)
         size, whole = _norm(step), 1 + _norm(x)
         radius = (whole * arb(2) ** (64 - ctx.prec)).upper()
@@ -59,6 +79,9 @@ def together(point: Begun, equations: Sequence[Equation], stride: int) -> dict[i
         close = size < _CLOSE * whole
         share = arb(1)
         while True:
+            if not evaluations:
+                raise Undefined("laws that were not satisfied together")
+            evaluations -= 1
             moved = [(a + share * d).mid() for a, d in zip(x, step, strict=True)]
             try:
                 value, found = laws.at(moved)
@@ -70,7 +93,6 @@ def together(point: Begun, equations: Sequence[Equation], stride: int) -> dict[i
             if close or not share > _SHORTEST:
                 raise Undefined("laws that no step satisfies together")
         x, slopes = moved, found
-    raise Undefined("laws that were not satisfied together")
 
 
 def _step(slopes: arb_mat, value: arb_mat) -> list[Number]:

@@ -18,6 +18,7 @@ from typing import NamedTuple
 from bondgraph.exact.assembly import Assembly, Parts, assemble
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.exponentials import ExponentialSample, amplitudes, linear, tell
+from bondgraph.exact.knots import budget
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.outline import highest_order, integral_depth, outline, rational
 from bondgraph.exact.plant_equations import Setting, Writer, written
@@ -335,7 +336,7 @@ class Plant:
                     plant,
                     solver=wanted.solver,
                     still=attempt >= ATTEMPTS,
-                    joint=real and attempt % 2 == 1,
+                    joint=budget(attempt) if real else 0,
                     read=wanted.read,
                     turned=wanted.turned,
                 )
@@ -498,7 +499,7 @@ class Plant:
         part: Assembly,
         solver: Solver = solve,
         still: bool = False,
-        joint: bool = False,
+        joint: int = 0,
         read: frozenset[Expr] | None = None,
         turned: bool = False,
     ) -> Trajectory:
@@ -569,7 +570,7 @@ class Plant:
                     numbers,
                     now.part,
                     still=now.still,
-                    joint=numbers.real and attempt % 2 == 1,
+                    joint=budget(attempt) if numbers.real else 0,
                     read=now.read,
                 )
         self.momentary.append(now.part)

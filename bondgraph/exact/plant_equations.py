@@ -34,8 +34,8 @@ class Setting(NamedTuple):
     """Constants of one trajectory: params, consts and modes as series, `n` coefficients.
 
     `shown` is what sensors read. With `still` a law may be satisfied by a factor that is zero at
-    all times, see `bondgraph.exact.rest`; with `joint` laws that hold each other are satisfied at
-    once, see `bondgraph.exact.knots`.
+    all times, see `bondgraph.exact.rest`; laws that hold each other are satisfied at once, in
+    at most `joint` evaluations, see `bondgraph.exact.knots`; one after the other if it is 0.
     """
 
     values: dict[Expr, Series]
@@ -43,7 +43,7 @@ class Setting(NamedTuple):
     n: int
     shown: tuple[Expr, ...] = ()
     still: bool = False
-    joint: bool = False
+    joint: int = 0
 
 
 def constant(values: Mapping[Expr, Series], symbol: Expr) -> Series:

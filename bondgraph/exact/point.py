@@ -200,7 +200,8 @@ class Point:
                     pending = [item for item in pending if item[0] != solved]
                     continue
                 if self.setting.joint:
-                    values = together(self, [e for _, e in pending], STRIDE)
+                    laws = [e for _, e in pending]
+                    values = together(self, laws, STRIDE, self.setting.joint)
                     for column, value in values.items():
                         self.fix({column: 1}, value)
                     return
