@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import mpmath
 import sympy
@@ -165,6 +165,23 @@ def function(name: str, args: Sequence[Jet]) -> Jet:
     raise NotImplementedError(name)
 
 
+def _names(e: Any) -> set[str]:
+    return {symbol.name for symbol in e.free_symbols}
+
+
+class _Outside(NamedTuple):
+    """Of the search for a root: what the names that move with it are no part of, evaluated once."""
+
+    of: Evaluator
+    moved: set[str]
+    known: dict[Any, bool]
+
+    def holds(self, e: Any) -> bool:
+        if e not in self.known:
+            self.known[e] = not _names(e) & self.moved
+        return self.known[e]
+
+
 class Evaluator:
     """Values of SymPy expressions; `signals` gives the jet, number or truth of every symbol.
 
@@ -186,6 +203,7 @@ class Evaluator:
         self.free = free_integrals
         self.memo: dict[Any, Any] = {}
         self.starts: dict[Any, Any] = {}
+        self.outside: _Outside | None = None
 
     def truth(self, e: Any) -> bool:
         if e is sympy.true or e is True:
@@ -226,26 +244,33 @@ class Evaluator:
 
     def __call__(self, e: Any) -> Jet:
         if e not in self.memo:
-            self.memo[e] = self._value(e)
+            outside = self.outside is not None and self.outside.holds(e)
+            self.memo[e] = self.outside.of(e)[: self.n] if outside else self._value(e)
         return self.memo[e]
 
     def _root(self, name: str, zero: Any, guess: float) -> Jet:
         """The lead by a bracket and bisection with secants, the rest one coefficient at a time."""
         others = {k: v for k, v in self.roots.items() if k != name}
+        moved = {name}
+        for _ in others:
+            moved |= {k for k, (z, _) in others.items() if _names(z) & moved}
+        apart: dict[Any, bool] = {}
 
         def at(jet: Jet) -> Jet:
-            inner = Evaluator({**self.signals, name: jet}, self.n, self.free, others)
-            inner.starts = self.starts
+            inner = Evaluator({**self.signals, name: jet}, len(jet), self.free, others)
+            inner.starts, inner.outside = self.starts, _Outside(self, moved, apart)
             return inner(zero)
 
+        known = len(at(constant(guess, self.n)))
+        least = self.n - known + 1  # coefficients that the first of the result rests on
+
         def lead(x: Any) -> Any:
-            return at(constant(x, self.n))[0]
+            return at(constant(x, least))[0]
 
         jet = constant(_bracketed(lead, mpf(guess)), self.n)
-        known = len(at(jet))
         for k in range(1, known):
-            moved = [*jet[:k], mpf(1), *jet[k + 1 :]]
-            here, there = at(jet)[k], at(moved)[k]
+            other = [*jet[:k], mpf(1), *jet[k + 1 :]]
+            here, there = at(jet)[k], at(other)[k]
             jet[k] = -here / (there - here)
         return jet[:known]
 
@@ -296,9 +321,20 @@ def _bracketed(f: Callable[[Any], Any], guess: Any) -> Any:
     low = high = guess
     while f(low) * f(high) > 0:
         low, high, width = guess - width, guess + width, 2 * width
-    while high - low > mpf(10) ** -60:
-        middle = (low + high) / 2
-        if middle in (low, high):
+    below, above, stale = f(low), f(high), 0
+    for step in range(400):
+        if not below or not above or high - low <= mpf(10) ** -60:
             break
-        low, high = (middle, high) if f(low) * f(middle) > 0 else (low, middle)
-    return (low + high) / 2
+        # a secant with the kept end halved (Illinois); every fourth time the middle, for corners
+        share = below / (below - above) if step % 4 else mpf(1) / 2
+        middle = low + share * (high - low)
+        if middle in (low, high):
+            return middle  # no number lies between
+        value = f(middle)
+        if (value > 0) == (below > 0):
+            low, below = middle, value
+            above, stale = (above / 2 if stale < 0 else above), -1
+        else:
+            high, above = middle, value
+            below, stale = (below / 2 if stale > 0 else below), 1
+    return low if not below else high if not above else (low + high) / 2
