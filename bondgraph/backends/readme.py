@@ -364,7 +364,7 @@ def _usage(
     if "c" in targets and fixed:
         found.append(
             "- **C** is in whole numbers: no `configure`, since scales and errors are proven for "
-            f"the parameters of the model, and no `diagnose`; `{stem}_nominal_coefficients` has "
+            f"the parameters of the model; `{stem}_nominal_coefficients` has "
             "all coefficients. A sample beyond its limits is held at them; residuals that see it "
             "are 0 and not valid, and start anew with the next one within them. One machine is one "
             f"`{stem}_memory`."
