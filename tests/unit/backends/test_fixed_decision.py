@@ -130,23 +130,34 @@ def test_c_decides_as_whole_numbers_say(in_c: DiagnoseInC, seed: int, latch: boo
 
 @pytest.mark.parametrize("seed", range(6))
 def test_nothing_overflows_whatever_limits_and_residuals_are(in_c: DiagnoseInC, seed: int) -> None:
-    """All at their ends, and beside them: the sanitizer sees it, and the asserts of `Decision`."""
+    """All at their ends and at limits: the sanitizer sees it, and the asserts of `Decision`."""
     fixed, draw = _compiled().fixed_program, random.Random(seed)
     ends = (-WORD, 1 - WORD, -1, 0, 1, WORD - 1)
-    sizes = (0, 1, 9, WORD, 2 * WORD - 1)
+    sizes = (0, 1, 16, 96, WORD, 2 * WORD - 1)
     factors, shifts = (0, 1, 2**29 + 1, 2**30), (0, 1, 30, 62)
-    heights = (0, 2**18, 2**30, 2**30 + 1, WORD - 1)
+    heights = (0, 2**18, 2**29 + 7, 2**30 - 1, 2**30, WORD - 9, WORD - 1)
     parts = (ends, sizes, sizes, factors, factors, (0, 2**17, WORD - 1), heights, shifts, shifts)
     for _ in range(60):
         limits = tuple(WholeLimit(*map(draw.choice, parts)) for _ in range(2))
         expected = _decision(fixed, limits, False)
         in_c.reset()
         in_c.found.row = expected.row = 3
+        in_c.found.least = expected.least = draw.randint(1, 3)
         in_c.found.hold = expected.hold = 8
         given = in_c.limits(limits)
+        places = [[*ends, *_edges(own)] for own in limits]
         for _ in range(60):
-            values = [None if draw.random() < 0.1 else draw.choice(ends) for _ in range(2)]
+            values = [None if draw.random() < 0.1 else draw.choice(own) for own in places]
             assert in_c.update(given, values) == expected.words(expected.update(values))
+
+
+def _edges(limit: WholeLimit) -> list[int]:
+    """Residuals that come to a limit, or to a whole octave of peaks, and those beside them."""
+    sure = limit.level + 2 * limit.bound
+    out = [limit.level, limit.level // 2, *(limit.level + sure * 2**n // 16 for n in range(8))]
+    far = [limit.bound + x + more for x in out for more in (-1, 0, 1)]
+    own = [limit.mean + sign * x for x in far for sign in (-1, 1)]
+    return [x for x in own if -WORD <= x < WORD]
 
 
 # ---------------------------------------------------------------------------- beside double
