@@ -212,7 +212,7 @@ def _file_list(
     """What is in the folder."""
     rows = []
     if "c" in targets:
-        what = "the residuals in C99, in whole numbers" if fixed else "all of it in C99"
+        what = "residuals and verdict in C99, in whole numbers" if fixed else "all of it in C99"
         rows.append((f"`{file}.h`, `{file}.c`", f"{what}: two files to add to a project"))
         rows.append(("`CMakeLists.txt`", "the library, alone or in another project"))
     if "python" in targets:

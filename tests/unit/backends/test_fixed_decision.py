@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 import re
+import shutil
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -16,8 +17,10 @@ import pytest
 
 import bondgraph
 from bondgraph import Course, Fault, Instrument, Scenario
+from bondgraph.backends.costs import CORES, Core, missing
 from bondgraph.backends.decision import fault_classes
 from bondgraph.backends.fixed_decision import HIGHEST, ROUGH, whole_limit
+from bondgraph.backends.templates import codegen, fill
 from bondgraph.cli.main import main
 from bondgraph.ir.fixed_program import SUM_BITS, FixedProgram, WholeLimit
 from bondgraph.ir.residual_limit import ResidualLimit, ShownSize
@@ -25,7 +28,7 @@ from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
 from bondgraph.text.diagnostic import CompileError
-from tests.unit.backends.compilers import python_module
+from tests.unit.backends.compilers import python_module, run
 from tests.unit.backends.fixed_models import RANGES
 from tests.unit.backends.whole_decision import ALARM, Decision, DiagnoseInC
 from tests.unit.backends.whole_numbers import WORD
@@ -308,3 +311,87 @@ def test_a_residual_that_has_no_value_has_no_limit() -> None:
     c = bondgraph.compile(_MODEL, real="fixed", ranges=RANGES["dc_motor"], targets=["c"])
     text = {a.path: a.text for a in c.artifacts}["motor.h"]
     assert "motor_diagnose(" in text and "motor_limits[" not in text
+
+
+# ------------------------------------------------------------------------ on other machines
+
+_BOARD = """
+#include "motor.h"
+
+extern uint32_t instructions(void);
+extern void print(uint32_t number);
+extern void finish(void);
+
+static motor_diagnosis found;
+static motor_residuals residuals;
+static uint32_t seed = 1u, sum = 2166136261u;
+
+static uint32_t draw(void)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return seed >> 8;
+}
+
+static void add(uint32_t word)
+{
+    sum = (sum ^ word) * 16777619u;
+}
+
+/* Quiet or loud for a while, each by itself, and a word now and then. */
+int main(void)
+{
+    int at, k, size[MOTOR_RESIDUALS] = {0};
+    uint32_t alarms = 0u;
+    bool alarm;
+
+    motor_diagnosis_reset(&found);
+    found.hold = 300u;
+    for (at = 0; at < 20000; ++at) {
+        for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+            if (draw() % 1500u == 0u) size[k] = draw() % 3u != 0u ? 0 : (int)(draw() % 24u);
+            residuals.value[k] = ((int32_t)(draw() & 0xFFFFu) - 32768) * (1 << size[k] / 2);
+            residuals.value[k] += draw() % 7u == 0u ? (1 << size[k]) * 64 : 0;
+            residuals.valid[k] = draw() % 900u != 0u;
+        }
+        alarm = motor_diagnose(&found, motor_limits, &residuals);
+        alarms += alarm ? 1u : 0u;
+        add((uint32_t)found.fault_class);
+        for (k = 0; k < MOTOR_RESIDUALS; ++k) {
+            add(found.state[k]); add(found.since[k]); add(found.peak[k]);
+            add((uint32_t)found.above[k]); add((uint32_t)found.below[k]);
+            add((uint32_t)found.louder[k]);
+        }
+        for (k = 0; k < MOTOR_CLASSES; ++k) add(found.candidate[k]);
+        if (at % 1000 == 999) print(sum);
+    }
+    print(alarms);
+    finish();
+    return 0;
+}
+"""
+
+
+def _told(folder: Path, core: Core) -> list[str]:
+    """What the program prints on a core."""
+    files = ("board_main.c", "board.c", "motor.c")
+    flags = ("-std=gnu99", "-O2", *core.flags, "-I.", *core.link)
+    run(core.compiler, *flags, *files, "-lc", "-lgcc", "-o", core.name, cwd=folder)
+    if core.machine == ("valgrind",):
+        return run(folder / core.name).split()
+    host = ("-semihosting-config", "enable=on,target=native", "-kernel", core.name)
+    quiet = ("-display", "none", "-monitor", "none", "-serial", "none")
+    return run("sh", "-c", '"$@" 2>&1', "sh", *core.machine, *quiet, *host, cwd=folder).split()
+
+
+def test_a_cortex_m_and_a_risc_v_decide_as_this_computer_does(folder: Path) -> None:
+    """Of 20 000 samples all that diagnose says and remembers, as a checksum every 1000."""
+    here = [core for core in CORES if not missing(core)]
+    if len(here) < len(CORES):
+        pytest.skip("needs qemu and gcc for Cortex-M and RISC-V")
+    (folder / "board_main.c").write_text(_BOARD)
+    (folder / "link.ld").write_text(fill("c/qemu/link.ld.j2", {}))
+    for name in ("board.c", "riscv.ld"):
+        shutil.copy(codegen() / "c" / "costs" / name, folder)
+    told = {core.name: _told(folder, core) for core in here}
+    (one,) = {tuple(words) for words in told.values()}
+    assert len(set(one)) == 21 and 1000 < int(one[-1]) < 19_000
