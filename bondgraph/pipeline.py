@@ -679,10 +679,12 @@ class Compilation:
         >>> c.fixed_program.residuals["r1"].fixed < 2e-5  # V, next to the same in double
         True
         """
+        from bondgraph.backends.fixed_decision import fixed_limits
         from bondgraph.backends.fixed_point import fixed_point
 
         program, ranges = self.program, dict(self.options.ranges)
-        return self._stage(fixed_point(program, ranges, self.report))
+        fixed = self._stage(fixed_point(program, ranges, self.report))
+        return self._stage(fixed_limits(fixed, self._tuned, self.report))
 
     @cached_property
     def program_with_readings(self) -> Program:
@@ -1132,12 +1134,8 @@ def _checked(options: Options) -> Options:
 
 def _check_fixed(options: Options) -> None:
     """What there is not in whole numbers yet; raises `WrongOption`."""
-    if options.extras:
-        raise WrongOption(f"--with {options.extras[0]} is for double: leave --real fixed out")
+    for name in options.extras:
+        if name != "misra":
+            raise WrongOption(f"--with {name} is for double: leave --real fixed out")
     if options.libm:
         raise WrongOption("--libm calls a function of double: leave --real fixed out")
-    if options.tuning is not None:
-        raise WrongOption(
-            "--tuning is for `diagnose`, which is not there in whole numbers: leave --real fixed"
-            " out, or compare the residuals with limits of your own"
-        )

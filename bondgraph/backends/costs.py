@@ -60,6 +60,11 @@ def _arm(name: str, *flags: str) -> Core:
     return Core(name, "float", compiler, ("-mthumb", *flags), _THUMB, tuple(machine))
 
 
+def whole(cores: Sequence[Core]) -> tuple[Core, ...]:
+    """The same cores, for code in whole numbers."""
+    return tuple(core._replace(real="int32") for core in cores)
+
+
 #: A Cortex-M4 runs all instructions of the smaller ones: it counts theirs.
 CORES = (
     Core("x86-64", "double", "gcc", (), (), ("valgrind",)),
@@ -87,7 +92,7 @@ def costs(
     holes: Mapping[str, object],
     cores: Sequence[Core] = CORES,
 ) -> tuple[Cost, ...]:
-    """The costs of C that was emitted with `tests`, on those of the `cores` whose tools are here.
+    """The costs of C whose `files` have samples in tests/golden.h, on the `cores` that are here.
 
     `holes` are those of the C templates. Raises Trouble where no core can be measured, or one
     cannot with the tools that are here.
@@ -109,8 +114,8 @@ def costs(
         return tuple(_cost(folder, core, stem, file) for core in here)
 
 
-def table(found: Sequence[Cost]) -> dict[str, object]:
-    """The holes of costs.md.j2."""
+def table(found: Sequence[Cost], samples: str) -> dict[str, object]:
+    """The holes of costs.md.j2; `samples` says which ones."""
     rows = []
     for core, _, *sizes, step, worst, diagnose in found:
         words = (*sizes, *(f"{x:.0f}" for x in (step, worst, diagnose)))
@@ -119,6 +124,7 @@ def table(found: Sequence[Cost]) -> dict[str, object]:
     compilers = dict.fromkeys(f"{cost.core.compiler} {cost.version}" for cost in found)
     return {
         "rows": rows,
+        "samples": samples,
         "compilers": joined(compilers),
         "absent": ", ".join(core.name for core in CORES if core.name not in here),
     }

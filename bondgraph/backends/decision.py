@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import ceil, floor, inf, log2
 
 from bondgraph.backends import listing
@@ -121,8 +121,18 @@ def c_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]
         words = [[f"{x}u" for x in row] for row in rows or [none]]
         return [line for row in words for line in _row(row, "{}", target)]
 
+    stem = snake(program.name)
     return {
         **_both(program, tuned, real, target),
+        "sum_type": f"{stem}_real",
+        "peak_type": f"{stem}_real",
+        "level_type": f"{stem}_real",
+        "wide": "real",
+        "wrap": " ",
+        "level": "limit->level",
+        "not_quiet": "!(out < RELEASE * limit->level)",
+        "peak_code": "eighths(d->peak[k])",
+        "no_peak": "REAL(0.0)",
         "fault_count": len(place),
         "fault_size": max((len(f) for c in own for f in c.faults), default=0) + 1,
         "residual_size": max((len(r.name) for r in program.residuals), default=0) + 1,
@@ -155,7 +165,6 @@ def _both(
     row = samples_a_row(program)
     known = [tuned.limits.get(r.name, NEVER) for r in program.residuals] if tuned.source else []
     rows = [[real(x) for x in limit] for limit in known]
-    braces = "{}" if target.folder == "c" else "()"
     names = [f'"{r.name}",' for r in program.residuals]
     return {
         "residual_names": listing.table_lines(names, target, 4),
@@ -171,8 +180,14 @@ def _both(
         "overshoot": digits(OVERSHOOT),
         "share": digits(SHARE),
         "tuned": listing.harmless(tuned.source, target),
-        "limits": [line for own in rows for line in _row(own, braces, target)],
+        "limits": limit_lines(rows, target),
     }
+
+
+def limit_lines(rows: Iterable[Sequence[str]], target: Target) -> list[str]:
+    """The lines of a table that has a row for each residual."""
+    braces = "{}" if target.folder == "c" else "()"
+    return [line for own in rows for line in _row(own, braces, target)]
 
 
 def _row(items: Sequence[str], braces: str, target: Target) -> list[str]:

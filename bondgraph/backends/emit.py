@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from bondgraph.backends import c, fixed_c, python
-from bondgraph.backends.costs import Cost, costs, table
+from bondgraph.backends.costs import CORES, costs, table, whole
 from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.deviations import record
 from bondgraph.backends.facts import facts
@@ -39,11 +39,11 @@ def emit(
     `extras` are `tests` with golden vectors, `exact` residuals of derivatives, an `example`,
     what a board of `qemu` needs to run it, what makes the folder a module of `zephyr`, a
     component of ESP-IDF, a library for `arduino`, a node of `ros2`, and a record of deviations from
-    the rules of `misra`. With `fixed`, C is in whole numbers: residuals only, without thresholds,
-    `diagnose` and extras. The same program gives the same bytes, but for the costs of the C, which
-    are `measured` with the tools that are here. Raises ValueError for a target or an extra that is
-    not there, Trouble for an extra that none of the targets has, and where there is nothing to
-    measure with.
+    the rules of `misra`. With `fixed`, C is in whole numbers: residuals and `diagnose`, without
+    thresholds, and `misra` is the one extra. The same program gives the same bytes, but for the
+    costs of the C, which are `measured` with the tools that are here. Raises ValueError for a
+    target or an extra that is not there, Trouble for an extra that none of the targets has, and
+    where there is nothing to measure with.
     """
     wanted = tuple(name for name in EXTRAS if name in extras)
     if unknown := [name for name in extras if name not in EXTRAS]:
@@ -57,7 +57,7 @@ def emit(
     for name in dict.fromkeys(targets):
         target = load(name)
         if fixed is not None and target.fixed:
-            found |= _whole_numbers(fixed, target)
+            found |= _whole_numbers(fixed, target, tuned, wanted)
             continue
         files = _files(program, target, thresholds, tuned, wanted)
         found |= files
@@ -66,18 +66,22 @@ def emit(
     holes = readme(
         program, about, tuple(dict.fromkeys(targets)), examples, thresholds, wanted, fixed
     )
-    if measured and fixed is not None:
-        raise Trouble("costs are measured of double and float: leave --costs out")
-    holes["costs"] = table(_costs(program, tuned)) if measured and "c" in targets else {}
+    holes["costs"] = _costs(program, tuned, fixed) if measured and "c" in targets else {}
     found["README.md"] = fill("README.md.j2", holes)
     return tuple(Artifact(path, text) for path, text in found.items())
 
 
-def _whole_numbers(fixed: FixedProgram, target: Target) -> dict[str, str]:
+def _whole_numbers(
+    fixed: FixedProgram, target: Target, tuned: Tuned, extras: tuple[str, ...]
+) -> dict[str, str]:
     """The code of a program in one language, in whole numbers."""
-    holes = fixed_c.files(fixed, target) | {f"has_{name}": False for name in EXTRAS}
+    holes = fixed_c.files(fixed, target, tuned) | {f"has_{name}": False for name in EXTRAS}
     file = facts(fixed.program).file
-    return {path.format(file=file, of=""): fill(name, holes) for name, path in target.fixed}
+    found = {path.format(file=file, of=""): fill(name, holes) for name, path in target.fixed}
+    if "misra" in extras:
+        own = holes | record(found)
+        found |= {path: fill(name, own) for name, path in target.extras["misra"]}
+    return found
 
 
 def _files(
@@ -112,12 +116,18 @@ def _files(
     return found
 
 
-def _costs(program: Program, tuned: Tuned) -> tuple[Cost, ...]:
-    """What the C without thresholds costs here."""
+def _costs(program: Program, tuned: Tuned, fixed: FixedProgram | None) -> dict[str, object]:
+    """What the C without thresholds costs here, as the holes of its table."""
     target, about = load("c"), facts(program)
+    if fixed is not None:
+        holes = fixed_c.files(fixed, target, tuned) | fixed_c.trials(fixed, target)
+        files = _whole_numbers(fixed, target, tuned, ())
+        files["tests/golden.h"] = fill("c/costs/fixed_samples.h.j2", holes)
+        found = costs(files, about.stem, about.file, holes, whole(CORES))
+        return table(found, "samples about zero within their ranges")
     files = _files(program, target, None, tuned, ("tests",))
     holes = c.files(program, target, tuned) | c.vectors(program, target, golden(program))
-    return costs(files, about.stem, about.file, holes)
+    return table(costs(files, about.stem, about.file, holes), "the samples of the self-test")
 
 
 def _untested(program: Program) -> Golden:

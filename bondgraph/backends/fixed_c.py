@@ -8,8 +8,9 @@ from functools import partial
 from typing import assert_never
 
 from bondgraph.algebra import cubic_tanh
-from bondgraph.backends import listing
+from bondgraph.backends import fixed_decision, listing
 from bondgraph.backends.c_functions import Functions, Unit, Written
+from bondgraph.backends.decision import Tuned
 from bondgraph.backends.facts import ABI, about_known, about_residual, facts
 from bondgraph.backends.identifiers import spellings
 from bondgraph.backends.spelling import Spelling
@@ -35,12 +36,43 @@ from bondgraph.notation.walk import references
 from bondgraph.text.numerals import joined
 
 #: What the templates call their functions, beside the names of `target.toml`.
-_NAMES = frozenset("held top high within bounded window tanh_of cubics turned".split())
+_NAMES = frozenset(
+    """held hold upper times within bounded window tanh_of cubics turned scaled distance loudness
+    eighth eighths""".split()
+)
+
+_TRIALS = 16  # samples
 
 
-def files(fixed: FixedProgram, target: Target) -> dict[str, object]:
-    """The holes of the templates of C in whole numbers."""
-    return _Code(fixed, target).holes()
+def files(fixed: FixedProgram, target: Target, tuned: Tuned) -> dict[str, object]:
+    """The holes of the templates of C in whole numbers; `tuned` has the sizes of faults."""
+    return _Code(fixed, target).holes() | fixed_decision.c_holes(fixed, tuned, target)
+
+
+def trials(fixed: FixedProgram, target: Target) -> dict[str, object]:
+    """The holes for measuring `step`: samples about zero, to either side, and one that is bad."""
+    spelling = Spelling(fixed.program, target)
+    rows = [[_trial(k, fixed.samples.get(known.name), known) for known in fixed.program.knowns]
+            for k in range(_TRIALS)]  # fmt: skip
+    return {
+        "trial_count": _TRIALS,
+        "trials": listing.table([f"{{{', '.join(map(str, row))}}}" for row in rows], target, 4),
+        "spoil": [
+            f"    bad.{spelling.knowns[k.name]} = INT32_MIN;"
+            for k in fixed.program.knowns
+            if k.counts is None
+        ],
+    }
+
+
+def _trial(at: int, limits: Limits | None, known: Known) -> int:
+    """A sample; an encoder is turned to and fro."""
+    if limits is None:
+        return 0
+    if known.counts is not None:
+        return at % 2 if limits.least < 0 < limits.most else 0
+    off = (limits.most - limits.least) // 64 * (-1 if at % 2 else 1)
+    return min(max(off, limits.least), limits.most)
 
 
 class _Code:
@@ -424,7 +456,7 @@ class _Code:
         products, offset, shift = instruction.products, instruction.offset, instruction.shift
         if len(products) == 1 and shift == 32 and not offset:
             [one] = products
-            parts.append((True, f"high({self._factor(one)}, {spell(one.variable)})"))
+            parts.append((True, f"times({self._factor(one)}, {spell(one.variable)})"))
         elif products:
             total = " + ".join(
                 f"(int64_t){self._factor(p)} * {spell(p.variable)}" for p in products
@@ -432,7 +464,7 @@ class _Code:
             if offset:
                 total += f" + {_wide(offset)}"
             whole = f"({total}) >> {shift}" if shift else total
-            parts.append((True, f"top({total})" if shift == 32 else f"(int32_t)({whole})"))
+            parts.append((True, f"upper({total})" if shift == 32 else f"(int32_t)({whole})"))
         parts += [(positive, spell(ref)) for positive, ref in instruction.plain]
         if instruction.constant or not parts:
             parts.append((instruction.constant >= 0, str(abs(instruction.constant))))

@@ -212,7 +212,7 @@ def _file_list(
     """What is in the folder."""
     rows = []
     if "c" in targets:
-        what = "the residuals in C99, in whole numbers" if fixed else "all of it in C99"
+        what = "residuals and verdict in C99, in whole numbers" if fixed else "all of it in C99"
         rows.append((f"`{file}.h`, `{file}.c`", f"{what}: two files to add to a project"))
         rows.append(("`CMakeLists.txt`", "the library, alone or in another project"))
     if "python" in targets:
@@ -364,7 +364,7 @@ def _usage(
     if "c" in targets and fixed:
         found.append(
             "- **C** is in whole numbers: no `configure`, since scales and errors are proven for "
-            f"the parameters of the model, and no `diagnose`; `{stem}_nominal_coefficients` has "
+            f"the parameters of the model; `{stem}_nominal_coefficients` has "
             "all coefficients. A sample beyond its limits is held at them; residuals that see it "
             "are 0 and not valid, and start anew with the next one within them. One machine is one "
             f"`{stem}_memory`."

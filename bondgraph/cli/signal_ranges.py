@@ -61,7 +61,7 @@ def with_ranges(compilation: Compilation, args: Namespace) -> Compilation:
             raise Trouble(f"{(*given, '--map')[0]}: ranges are for --real fixed only")
         return compilation
     found: dict[str, tuple[float, float]] = {}
-    if compilation.options.extras or compilation.options.tuning is not None:
+    if compilation.options.extras:
         compilation.with_options(real="fixed")  # which says that there is no such thing
     if not compilation.residuals:
         return compilation  # there is nothing to be written

@@ -15,6 +15,8 @@ from bondgraph.text.tuples import NamedTuple
 
 #: Bits of a sample beside its sign, where its range has both signs.
 SAMPLE_BITS = 29
+#: Bits behind the point of the sums of `diagnose`, and of the root of what is added for loudness.
+SUM_BITS, ROOT_BITS = 18, 24
 
 
 class Factor(NamedTuple):
@@ -144,11 +146,32 @@ class Deviation(NamedTuple):
     largest: float
 
 
+class WholeLimit(NamedTuple):
+    """How far a residual may be from zero while the machine is well, in whole numbers.
+
+    `ir.residual_limit.ResidualLimit` says what each is. `mean`, `level` and `bound` are at the
+    scale of the residual. What a row adds is times 2**SUM_BITS: what it is off times `unit` >>
+    `unit_shift`, less a half; and, less `drift`, the square of what it is out times `loud` >>
+    `loud_shift`, which is times 2**ROOT_BITS.
+    """
+
+    mean: int
+    level: int
+    bound: int
+    unit: int
+    loud: int
+    drift: int
+    height: int
+    unit_shift: int
+    loud_shift: int
+
+
 class FixedProgram(NamedTuple):
     """The program of whole numbers, for the parameters of the model.
 
     By name `samples` has the limits of each signal, `residuals` the scale and deviation of each
-    residual, `bits` the scale of every variable; `settle` the samples until one is valid.
+    residual, `bits` the scale of every variable; `settle` the samples until one is valid. `limits`
+    are those of a tuning, by residual in order, none without one.
     """
 
     program: Program
@@ -157,3 +180,4 @@ class FixedProgram(NamedTuple):
     residuals: dict[str, Deviation]
     bits: dict[Ref, int]
     settle: tuple[int | None, ...]
+    limits: tuple[WholeLimit, ...] = ()

@@ -1,8 +1,9 @@
 """Frama-C's EVA on `step` and `diagnose`: can anything undefined happen, whatever is sampled?
 
-    python -m tests.generated.eva dc_motor two_tanks [--write]
+    python -m tests.generated.eva [--fixed] dc_motor two_tanks [--write]
 
-Needs `frama-c` (Debian: frama-c-base). Samples are any numbers from -1e6 to 1e6, any counts, any
+With `--fixed` it is `diagnose` in whole numbers, of any residuals and any limits that the header
+allows; its own proof is what `step` of whole numbers has (docs/firmware.md). Needs `frama-c` (Debian: frama-c-base). Samples are any numbers from -1e6 to 1e6, any counts, any
 modes, for any time; coefficients are those of the model. What is printed is EVA's own count of
 alarms, and each one; with `--write` the table goes into docs/firmware.md.
 """
@@ -18,6 +19,7 @@ from pathlib import Path
 
 import bondgraph
 from tests.measured import ROOT, write
+from tests.unit.backends.fixed_models import RANGES
 
 _SAMPLE = {
     "real": "Frama_C_double_interval(-1e6, 1e6)",
@@ -50,19 +52,55 @@ int main(void)
     return 0;
 }}
 """
+_FIXED = """#include "{file}.h"
+#include "__fc_builtin.h"
+#include <stdint.h>
+
+int main(void)
+{{
+    {stem}_residuals residuals;
+    {stem}_diagnosis found;
+    {stem}_limit limits[{upper}_RESIDUALS];
+    int k;
+
+    for (k = 0; k < {upper}_RESIDUALS; ++k) {{
+        limits[k].mean = Frama_C_interval(INT32_MIN, INT32_MAX);
+        limits[k].level = Frama_C_unsigned_int_interval(0, UINT32_MAX);
+        limits[k].bound = Frama_C_unsigned_int_interval(0, UINT32_MAX);
+        limits[k].unit = Frama_C_interval(0, 1 << 30);
+        limits[k].loud = Frama_C_interval(0, 1 << 30);
+        limits[k].drift = Frama_C_interval(0, INT32_MAX);
+        limits[k].height = Frama_C_interval(0, INT32_MAX);
+        limits[k].unit_shift = (uint8_t)Frama_C_interval(0, 62);
+        limits[k].loud_shift = (uint8_t)Frama_C_interval(0, 62);
+    }}
+    {stem}_diagnosis_reset(&found);
+    while (Frama_C_nondet(0, 1)) {{
+        for (k = 0; k < {upper}_RESIDUALS; ++k) {{
+            residuals.value[k] = Frama_C_interval(INT32_MIN, INT32_MAX);
+            residuals.valid[k] = Frama_C_nondet(0, 1);
+        }}
+        {stem}_diagnose(&found, limits, &residuals);
+    }}
+    return 0;
+}}
+"""
 
 
-def alarms(model: str) -> tuple[int, list[str]]:
+def alarms(model: str, fixed: bool = False) -> tuple[int, list[str]]:
     """How many alarms EVA has of a model, and their first lines."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        bondgraph.compile(ROOT / "models" / f"{model}.bg", targets=("c",)).write(folder)
+        c = bondgraph.compile(ROOT / "models" / f"{model}.bg", targets=("c",))
+        if fixed:
+            c = c.with_options(real="fixed", ranges=RANGES[model])
+        c.write(folder)
         (header,) = folder.glob("*.h")
         stem = re.findall(r"^void (\w+)_reset\(", header.read_text(), re.MULTILINE)[0]
         body = header.read_text().split(f"typedef struct {stem}_samples {{")[1].split("}")[0]
         members = re.findall(rf"^    (?:{stem}_)?(\w+) (\w+);", body, re.MULTILINE)
         lines = [f"        samples.{member} = {_SAMPLE[kind]};" for kind, member in members]
-        main = _MAIN.format(
+        main = (_FIXED if fixed else _MAIN).format(
             file=header.stem, stem=stem, upper=stem.upper(), samples="\n".join(lines)
         )
         (folder / "main.c").write_text(main)
@@ -80,15 +118,17 @@ def main() -> None:
     """A row for each model."""
     parser = argparse.ArgumentParser(prog="python -m tests.generated.eva")
     parser.add_argument("models", nargs="+", metavar="MODEL")
+    parser.add_argument("--fixed", action="store_true")
     parser.add_argument("--write", action="store_true")
     args = parser.parse_args()
     rows = ["| model | alarms |", "|---|---|"]
     for model in args.models:
-        count, said = alarms(model)
+        count, said = alarms(model, args.fixed)
         rows.append(f"| `{model}` | {count} |")
         print("\n".join([rows[-1], *said]), flush=True)
     if args.write:
-        command = f"python -m tests.generated.eva {' '.join(args.models)}"
+        words = ["--fixed"] * args.fixed + args.models
+        command = f"python -m tests.generated.eva {' '.join(words)}"
         write(ROOT / "docs" / "firmware.md", command, "\n".join(rows))
 
 

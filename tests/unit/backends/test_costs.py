@@ -10,6 +10,8 @@ import pytest
 import bondgraph
 from bondgraph.backends import costs
 from bondgraph.text.diagnostic import Trouble
+from tests.bench import cortex
+from tests.unit.backends.fixed_models import RANGES
 
 _MODELS = Path(__file__).parents[3] / "models"
 
@@ -56,3 +58,19 @@ def test_a_parameter_without_a_value_is_kept_in_ram(
     header = {a.path: a.text for a in c.artifacts}["one.h"]
     assert "one_nominal_coefficients" in header and rodata > 0
     assert open_ram > ram and open_rest == rest
+
+
+@pytest.mark.skipif(bool(cortex.missing()), reason="needs gcc and qemu for Cortex-M")
+def test_whole_numbers_cost_what_another_program_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """`step` with other samples, in a loop of its own; `diagnose` at most what issue 16 allows."""
+    _only(monkeypatch, "arm-none-eabi-gcc", "qemu-system-arm")
+    c = bondgraph.compile(
+        cortex.ROBOT, real="fixed", ranges=RANGES["khepera"], targets=("c",), costs=True
+    )
+    text = {a.path: a.text for a in c.artifacts}["README.md"]
+    core, kind, *numbers = _row(text, "Cortex-M3")
+    _, _, ram, _, step, worst, diagnose = map(int, numbers)
+    found = cortex.measured_fixed()
+    assert (core, kind) == ("Cortex-M3", "int32")
+    assert step == pytest.approx(found.instructions, rel=0.02) and worst > step
+    assert diagnose <= 120 and ram > found.memory

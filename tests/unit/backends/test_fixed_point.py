@@ -189,6 +189,18 @@ def test_no_floating_point_on_a_controller(model: str, tmp_path: Path) -> None:
     assert not re.search(r"\b(float|double)\b|math\.h", code)
 
 
+@pytest.mark.skipif(shutil.which("riscv64-unknown-elf-gcc") is None, reason="needs its gcc")
+@pytest.mark.parametrize("model", ["dc_motor", "khepera", "hydraulic_actuator"])
+def test_no_floating_point_on_a_risc_v(model: str, tmp_path: Path) -> None:
+    compiled(model).write(tmp_path)
+    stem = snake(compiled(model).program.name)
+    cores = ("-march=rv32imac", "-mabi=ilp32", "--specs=picolibc.specs")
+    gcc = ("riscv64-unknown-elf-gcc", "-std=c99", *cores, "-O2")
+    run(*gcc, *WARNINGS, "-c", f"{stem}.c", "-o", "out.o", cwd=tmp_path)
+    names = run("riscv64-unknown-elf-nm", "--undefined-only", "out.o", cwd=tmp_path)
+    assert not re.search(r"[sd]f[23]\b|[sd]f[sdt]i|si[sd]f", names)
+
+
 def test_a_bad_sample_costs_the_residuals_that_see_it_only() -> None:
     fixed = written("dc_motor")
     whole = Whole(fixed)
