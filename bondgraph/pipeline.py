@@ -6,7 +6,7 @@ import math
 import os
 from functools import cached_property
 from importlib import import_module
-from typing import TYPE_CHECKING, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from bondgraph.text.diagnostic import CompileError, Report, Trouble
 from bondgraph.text.limits import RATE
@@ -758,10 +758,10 @@ class Compilation:
         """The files in these languages with these extras; those of the options without them."""
         if targets is None and extras is None:
             return self.artifacts
-        own = self.options
-        return self._emitted(
-            own.targets if targets is None else targets, own.extras if extras is None else extras
-        )
+        given: dict[str, Any] = {"targets": targets, "extras": extras}
+        asked = {name: value for name, value in given.items() if value is not None}
+        chosen = _checked(self.options._replace(**asked))
+        return self._emitted(chosen.targets, chosen.extras)
 
     @cached_property
     def runnable_programs(self) -> tuple[Runnable, Runnable | None]:

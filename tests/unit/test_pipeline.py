@@ -150,6 +150,17 @@ def test_one_target_may_be_asked_for(tmp_path: Path) -> None:
     assert {Path(p).suffix for p in c.write(tmp_path)} == {".py", ".md", ".c", ".h", ".txt"}
     with pytest.raises(ValueError, match="no target 'cobol'"):
         c.write(tmp_path, targets=["cobol"])
+    with pytest.raises(TypeError, match="a sequence of names"):
+        c.write(tmp_path, targets="python")
+
+
+def test_what_whole_numbers_have_not_is_refused_not_left_out(tmp_path: Path) -> None:
+    known = bondgraph.compile(text=_CIRCUIT).program.knowns
+    ranges = {k.path: (-12.0, 12.0) for k in known}
+    c = bondgraph.compile(text=_CIRCUIT, real="fixed", ranges=ranges)
+    with pytest.raises(ValueError, match="--with tests is for double"):
+        c.write(tmp_path, extras=["tests"])
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_what_somebody_else_wrote_stays(tmp_path: Path) -> None:
