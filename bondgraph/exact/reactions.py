@@ -51,8 +51,10 @@ class Reactions:
         self.seed = seed
         self.modes = modes
         graph = plant.graph
-        laws = [law for _, law in plant.assembly.laws]
-        self.turns = _turns(laws, dict.fromkeys(plant.modes, 0))
+        whole = plant.assembly  # a command that saturates is a reading, not a law
+        told = [*whole.readings, *whole.shown]
+        roots = [law for _, law in whole.laws] + [r.value for r in whole.rates]
+        self.turns = _turns([*roots, *[e for _, _, e in told]], dict.fromkeys(plant.modes, 0))
         self.symbols = graph.fault_symbols()
         self.faults = {symbol: name for name, symbol in self.symbols.items()}
         switches = {symbol: symbol.symbol.name for symbol in modes or ()}

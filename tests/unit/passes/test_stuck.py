@@ -19,6 +19,26 @@ def rows(c: Compilation, **modes: bool) -> dict[str, frozenset[frozenset[str]]]:
     return {f: frozenset(union[r] for r in mode.matrix.seen_by(f)) for f in mode.matrix.faults}
 
 
+@pytest.mark.parametrize("command", ["max(set - T, 0)", "min(set - T, 0)", "max(T - set, 0)"])
+def test_a_command_that_saturates_is_tried_where_it_acts(command: str) -> None:
+    """A logged command u, at its limit for half of all references, feeds C through a switch.
+
+    r1 = if(on, P u, 0) + heat - C T', r2 = u - command. Turned over, C T' is 0 in place of P u, or
+    P u in place of 0: r1 is P u or -P u, which is zero only while u is at its limit; r2 is zero.
+    """
+    c = compiled(
+        f"""model M {{ param P=2; param C=3
+        input on : bool
+        input set
+        sensor u = {command}
+        Sf:heat = if(on, P*u, 0) -> 0:h {{ -> C:C; -> De:T }} }}"""
+    )
+    balance = frozenset({"P", "C", "heat", "T"})
+    told_on, told_off = rows(c, on=True), rows(c, on=False)
+    assert told_on["on"] == told_on["P"] == told_on["C"] == {balance}
+    assert told_off["on"] == told_off["C"] == {balance} and told_off["P"] == frozenset()
+
+
 def test_a_circuit_with_a_switch() -> None:
     """U feeds R and C through a switch; i and v are measured.
 
