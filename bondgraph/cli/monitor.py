@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 FAULT = 3  # the exit status of --fail-on-fault
 
-_COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "accepted": "36",
+_COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "accepted": "36", "refused": "33",
             "invalid": "33", "late": "33", "gap": "33"}  # fmt: skip
 
 

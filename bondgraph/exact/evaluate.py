@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from random import Random
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 from bondgraph.exact.outline import demands, integral_depth, outline, plan, static
 from bondgraph.exact.signal_algebra import Algebra, Exponentials, Mixed, Taylor, Values, compare
@@ -47,6 +47,10 @@ class Sample(Assignment, Protocol):
     def earlier(self, steps: int) -> Sample:
         """The same plant with the same constants at an earlier time, all signals different."""
         ...
+
+
+#: An IF node, and whether its condition holds.
+Side: TypeAlias = tuple[Expr, bool]
 
 
 class Sensitivity(NamedTuple):
@@ -131,9 +135,7 @@ def _power(numbers: Numbers, x: Number, exponent: int) -> Number:
     return base if exponent in (1, -1) else base ** abs(exponent)
 
 
-def _number_slopes(
-    root: Expr, values: dict[Expr, Number], numbers: Numbers
-) -> dict[Expr, Number]:
+def _number_slopes(root: Expr, values: dict[Expr, Number], numbers: Numbers) -> dict[Expr, Number]:
     """The derivatives of a root that is made of sums and products, where they are not zero."""
     adjoints: dict[Expr, Number] = {root: 1}
     out: dict[Expr, Number] = {}
@@ -395,6 +397,27 @@ class Forward:
             self.need = demands(nodes, roots, 1)
             self.values, self.failures = values_of(nodes, self.need, sample)
 
+    def taken(self, roots: Sequence[Expr], algebra: Values[Any]) -> set[Side]:
+        """The branches that the values of the roots come from."""
+        if self.numbers is not None:
+            return set()  # without a branch
+        found: set[Side] = set()
+
+        def inside(node: Expr) -> tuple[Expr, ...]:
+            if node.op is not Op.IF:
+                return node.args
+            branch = chosen(node, self.values, algebra)
+            found.add((node, branch is node.args[1]))
+            return (node.args[0], branch)
+
+        reached = set(roots)
+        left = list(reached)
+        for node in left:  # it grows as we go
+            new = [arg for arg in inside(node) if arg not in reached]
+            reached.update(new)
+            left += new
+        return found
+
 
 def sensitivities(
     root: Expr, sample: Sample, jumps: bool = False, forward: Forward | None = None
@@ -585,9 +608,7 @@ def tangent(root: Expr, wrt: Expr, values: dict[Expr, Any], algebra: Any, n: int
 # ---------------------------------------------------------------------- the value at the point
 
 
-def _lead(
-    node: Expr, leads: list[Number], sample: Any, zero: Callable[[Number], Number]
-) -> Number:
+def _lead(node: Expr, leads: list[Number], sample: Any, zero: Callable[[Number], Number]) -> Number:
     """The solution at the point."""
     numbers: Numbers = sample.algebra.numbers
     truly = getattr(sample, "truly", None)

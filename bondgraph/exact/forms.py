@@ -21,14 +21,17 @@ ORDERS = 16
 class NotLinear(Mixed):
     """A form is needed as a number: `form` says which, `of` what for (a function's name).
 
-    `at` is the number of the argument that it is.
+    `at` is the number of the argument that it is, `beside` are all arguments.
     """
 
-    def __init__(self, form: Form, of: str = "value", at: int = 0) -> None:
+    def __init__(
+        self, form: Form, of: str = "value", at: int = 0, beside: Sequence[Form] = ()
+    ) -> None:
         super().__init__("not linear")
         self.form = form
         self.of = of
         self.at = at
+        self.beside = beside
 
 
 class Forms:
@@ -44,11 +47,11 @@ class Forms:
             return [0]
         return form[CONSTANT] if len(form) == 1 and CONSTANT in form else None
 
-    def known(self, form: Form, of: str, at: int = 0) -> Series:
+    def known(self, form: Form, of: str, at: int = 0, beside: Sequence[Form] = ()) -> Series:
         """A form without unknowns as a series; raises `NotLinear` for another."""
         value = self.try_known(form)
         if value is None:
-            raise NotLinear(form, of, at)
+            raise NotLinear(form, of, at, beside)
         return value
 
     def number(self, x: Number) -> Form:
@@ -57,7 +60,7 @@ class Forms:
 
     def leads(self, *values: Form) -> list[Number]:
         """The values at the point."""
-        return [self.known(a, "decision", at)[0] for at, a in enumerate(values)]
+        return [self.known(a, "decision", at, values)[0] for at, a in enumerate(values)]
 
     def combine(self, terms: Sequence[tuple[Number, Form]], n: int) -> Form:
         """The sum of number times value."""
@@ -93,7 +96,7 @@ class Forms:
 
     def function(self, name: str, args: Sequence[Form], n: int) -> Form:
         """A function of one or two arguments."""
-        known = [self.known(a, name, at) for at, a in enumerate(args)]
+        known = [self.known(a, name, at, args) for at, a in enumerate(args)]
         return {CONSTANT: self._taylor.function(name, known, n)}
 
     def der(self, a: Form) -> Form:

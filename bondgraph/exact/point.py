@@ -74,7 +74,7 @@ class _PointForms(Forms):
         open_ = [at for at, a in enumerate(args) if self.try_known(a) is None]
         if len(open_) > 1:
             at = self._point.random.choice(open_)
-            raise NotLinear(args[at], of, at)
+            raise NotLinear(args[at], of, at, args)
 
 
 class _PointSample(FormSample):
@@ -210,7 +210,9 @@ class Point:
 
     def choose(self, block: NotLinear, law: tuple[Expr, ...]) -> None:
         """Give the argument that a law waits for a random value."""
-        argument = self.numbers.argument(self.random, block.of, block.at, self.scales(law))
+        others = [self.reduce(self.row(form)) for form in block.beside if form is not block.form]
+        beside = [row[CONSTANT] for row in others if row.keys() == {CONSTANT}]
+        argument = self.numbers.argument(self.random, block.of, block.at, self.scales(law), beside)
         self.fix(self.row(block.form), argument)
 
     def scales(self, law: tuple[Expr, ...]) -> list[float]:

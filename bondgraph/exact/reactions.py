@@ -16,6 +16,7 @@ from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.evaluate import (
     Forward,
     Sensitivity,
+    Side,
     evaluate,
     sensitivities,
     terms_needed,
@@ -29,7 +30,7 @@ from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.exact.switch_modes import assignments, modes_of
 from bondgraph.exact.trajectory import Trajectory
 from bondgraph.field.numbers import CUT, Undefined
-from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.expr import Expr, Kind, Op, symbols
 
 T = TypeVar("T")
 _ID = attrgetter("id")
@@ -38,6 +39,7 @@ _ID = attrgetter("id")
 #: probability of about its degree / 2**61 in a field, less over the reals), a branch not taken at
 #: one point is taken at another.
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
+_ROUNDS = 4  # so many times as many points where a branch was not met: it may have none
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
 _FEW = 8  # faults that are tried one by one where there are branches
 _TRIES = 40  # a point where a square root has no value is drawn again
@@ -86,15 +88,20 @@ class Reactions:
         reacts: list[set[Expr]] = [set() for _ in exprs]
         lasting: list[set[Expr]] = [set() for _ in exprs]
         hopeless: list[Mapping[Expr, int] | None] = []
-        for point, modes in enumerate(self.settings(exprs)):
+        settings = self.settings(exprs)
+        unmet = _sides(exprs, settings)
+        for point, modes in enumerate(settings * _ROUNDS):
+            if point >= len(settings) and not unmet:
+                break
             if modes in hopeless:
                 continue
             try:
                 attempt = partial(self.at_trajectory, exprs, modes)
-                parts = self.draw(attempt, 1000 * self.seed + point)
+                parts, met = self.draw(attempt, 1000 * self.seed + point)
             except ExactUnavailable:  # no trajectory, or no slope where a machine rests
                 hopeless.append(modes)
                 continue
+            unmet -= met
             for seen, sure, part in zip(reacts, lasting, parts, strict=True):
                 seen.update(s for s, hit in part.depends.items() if hit)
                 sure.update(part.lasting)
@@ -129,11 +136,12 @@ class Reactions:
 
     def at_trajectory(
         self, exprs: list[Expr], modes: Mapping[Expr, int] | None, number: int
-    ) -> list[Sensitivity]:
-        """Derivatives of all relations at one healthy trajectory."""
+    ) -> tuple[list[Sensitivity], set[Side]]:
+        """Derivatives of all relations at one healthy trajectory, and the branches it takes."""
         sample = self.plant.sample(exprs, number, terms_needed(exprs), modes=modes)
         forward = Forward(exprs, sample)
-        return [sensitivities(expr, sample, forward=forward) for expr in exprs]
+        found = [sensitivities(expr, sample, forward=forward) for expr in exprs]
+        return found, forward.taken(exprs, sample.algebra)
 
     def settings(self, exprs: list[Expr]) -> list[Mapping[Expr, int] | None]:
         """The modes at each of the points that are tried."""
@@ -279,6 +287,19 @@ def _branching(node: Expr) -> bool:
     return has_sides(node)
 
 
+def _sides(exprs: Sequence[Expr], settings: Sequence[Mapping[Expr, int] | None]) -> set[Side]:
+    """The branches of relations that points may take, where the modes do not say which."""
+    known = {mode for modes in settings for mode in modes or {}}
+    return {
+        (node, side)
+        for expr in exprs
+        if Op.IF in outline(expr).ops
+        for node in outline(expr).nodes
+        if node.op is Op.IF and not known.issuperset(symbols(node.args[0]))
+        for side in (True, False)
+    }
+
+
 class Entries(NamedTuple):
     """The faults that one relation sees at the declared numbers.
 
@@ -341,9 +362,7 @@ def _apart(
     return {symbol: tuple(constants) for symbol, constants in found.items()}
 
 
-def _unconfirmed(
-    plant: Plant, seed: int, expr: Expr, lost: Sequence[Expr], reason: str
-) -> Entries:
+def _unconfirmed(plant: Plant, seed: int, expr: Expr, lost: Sequence[Expr], reason: str) -> Entries:
     """What a relation sees where the machine has no trajectory at the declared numbers.
 
     At other numbers, or else with signals that are independent of each other.

@@ -210,7 +210,9 @@ class Reals:
         size = random.choice((-1, 1)) * _decades(random)
         return size * value if random.random() < 0.5 and self.nonzero(value) else size
 
-    def argument(self, random: Random, of: str, at: int, scales: list[float]) -> Number:
+    def argument(
+        self, random: Random, of: str, at: int, scales: list[float], beside: list[Number]
+    ) -> Number:
         """An argument at which a function does something, or near the numbers beside it."""
         if of.startswith("table:"):
             name = of.removeprefix("table:")
@@ -224,6 +226,11 @@ class Reals:
         size = random.lognormvariate(0, 0.7)
         if of in ("asin", "acos", "atanh"):
             return arb(random.uniform(-0.95, 0.95))
+        if of in ("decision", "min", "max"):
+            # on either side of what it is compared with
+            near = [x for x in beside if self.nonzero(x)]
+            if near and random.random() < 0.5:
+                return random.choice(near) * size
         if of in ("decision", "product", "value", "min", "max", "abs", "sign"):
             near = [s for s in scales if s]
             if near and random.random() < 0.7:

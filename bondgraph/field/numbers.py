@@ -113,10 +113,13 @@ class Numbers(Protocol):
         """What a reading of this value, or of about one, is wrong by: any of some decades."""
         ...
 
-    def argument(self, random: Random, of: str, at: int, scales: list[float]) -> Number:
+    def argument(
+        self, random: Random, of: str, at: int, scales: list[float], beside: list[Number]
+    ) -> Number:
         """A random argument number `at` for a function, of a size at which it matters.
 
-        `of` is its name; `scales` are the sizes of numbers that the model has beside it.
+        `of` is its name; `scales` are the sizes of numbers that the model has beside it, and
+        `beside` the values of its other arguments, as far as they are known.
         """
         ...
 

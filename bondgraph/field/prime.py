@@ -126,7 +126,9 @@ class PrimeField:
         """A random number."""
         return self.any(random)
 
-    def argument(self, random: Random, of: str, at: int, scales: list[float]) -> Number:
+    def argument(
+        self, random: Random, of: str, at: int, scales: list[float], beside: list[Number]
+    ) -> Number:
         """A random number."""
         return self.any(random)
 

@@ -60,8 +60,9 @@ class AcceptedFaults:
     told as the first fault was. What is known of noise and of the other parameters is kept; of a
     parameter that was accepted is known what its estimate says, with its deviation.
 
-    Not accepted are encoders and sensors whose readings laws use: they are told as before, and stay
-    in alarm. The `engine` is that of the model as it was declared, whose residuals come in.
+    Not accepted are encoders, sensors whose readings laws use, and two faults at once: they stay in
+    alarm, and that is said once, with the reason, when they would have been accepted. The `engine`
+    is that of the model as it was declared, whose residuals come in.
     """
 
     def __init__(
@@ -78,7 +79,8 @@ class AcceptedFaults:
         self._recent: deque[tuple[Array, Array]] = deque()  # times and samples as they came in
         self._count = 0  # of these samples
         self._last: list[Batch] = []  # of the last update
-        self._named: Verdict | None = None  # the newest verdict of this alarm, if it has a class
+        self._named: Verdict | None = None  # the newest verdict of this alarm that names faults
+        self._refused = False  # whether a fault of this alarm was not accepted
         self.accepted: tuple[Accepted, ...] = ()
         self._begin(())
 
@@ -110,7 +112,8 @@ class AcceptedFaults:
             self._remember(time[own], samples[own])
             for verdict in said:
                 if verdict.event in ("fault", "update", "cleared"):
-                    self._named = verdict if verdict.group else None
+                    self._named = verdict if verdict.group or verdict.pairs else None
+                    self._refused &= verdict.event == "update"
             out += said
             now, named = float(time[own][-1]), self._named
             if named is not None and now - max(named.time, named.since or 0.0) >= self._after:
@@ -159,17 +162,22 @@ class AcceptedFaults:
     # ----------------------------------------------------------------- acceptance
 
     def accept(self, now: float) -> list[Verdict]:
-        """Take what is named for the machine as it is, at a time in s; empty if that cannot be."""
+        """Take what is named for the machine as it is, at a time in s.
+
+        The verdict says why where that cannot be, the first time in an alarm; else there is none.
+        """
         named, self._named = self._named, None
-        found = None if named is None else self._wrong(named)
-        if named is None or found is None:
+        if named is None:
             return []
+        found = self._wrong(named)
+        if isinstance(found, str):
+            return self._refuse(named, now, found)
         fault, candidate = found
         before = self._watch
         try:
             self._begin((*self.accepted, fault))
-        except ValueError:  # the model cannot have that value
-            return []
+        except ValueError:
+            return self._refuse(named, now, f"the model cannot have {fault.fault} of such a value")
         self._watch.succeed(before)
         since = -math.inf if named.since is None else named.since
         for time, samples in self._recent:  # filters are to know the machine as it is only
@@ -179,22 +187,37 @@ class AcceptedFaults:
         verdict = named._replace(event="accepted", time=now, candidates=(candidate,), pairs=())
         return [verdict._replace(message=self._said(verdict, fault))]
 
-    def _wrong(self, named: Verdict) -> tuple[Accepted, Candidate] | None:
-        """The fault of the class that is most probable, as it is known by now."""
+    def _refuse(self, named: Verdict, now: float, why: str) -> list[Verdict]:
+        """Say why what is named stays in alarm, unless that was said of this alarm."""
+        again, self._refused = self._refused, True
+        if again:
+            return []
+        what = listed(named.group, "or") or listed(named.pairs[0].faults, "and")
+        message = f"{what} cannot be accepted, and stays in alarm: {why}"
+        return [named._replace(event="refused", time=now, message=message)]
+
+    def _wrong(self, named: Verdict) -> tuple[Accepted, Candidate] | str:
+        """The fault of the class that is most probable, as it is known by now, or why it is none
+        that is accepted."""
+        if not named.group:
+            return "these are two faults at once"
         (signal, *others), found = named.group, self._watch.wrong()
         if signal in self._watch.unusual and not others:
             return Accepted(signal, "lost"), Candidate(signal, None, "", 1.0)
         if found is None or found.fault not in named.group:
-            return None
+            return "something else explains by now what is seen"
         chances = {c.fault: c.probability for c in named.candidates}
         own, told = found.hypothesis, candidate(found, chances.get(found.fault, 1.0))
         if own.held is not None:
             return Accepted(own.held.signal, "stuck", own.held.position), told
         if own.kind != "value":
             at = self._place[own.fault]
-            counts = self._declared.signals[at].counts is not None
-            if own.kind not in ("offset", "gain") or counts or at in self._declared.readings:
-                return None
+            if self._declared.signals[at].counts is not None:
+                return f"{own.fault} is an encoder, whose counts are not corrected"
+            if at in self._declared.readings:
+                return f"laws of the model use what {own.fault} reads"
+            if own.kind not in ("offset", "gain"):
+                return f"{own.fault} is wrong by neither an offset nor a gain"
         return Accepted(own.fault, own.kind, found.change, found.deviation), told
 
     def _said(self, verdict: Verdict, fault: Accepted) -> str:
@@ -225,6 +248,7 @@ class AcceptedFaults:
         return {
             "accepted": [list(one) for one in self.accepted],
             "named": self._named and to_json(self._named, 0),
+            "refused": self._refused,
             "watch": self._watch.state(),
         }
 
@@ -241,4 +265,4 @@ class AcceptedFaults:
         named = None if state["named"] is None else from_json(state["named"])[1]
         self._begin(accepted)
         self._watch.resume(state["watch"])
-        self._named = named
+        self._named, self._refused = named, bool(state["refused"])

@@ -33,6 +33,7 @@ from bondgraph.runtime.diagnosis.rows import (
 from bondgraph.runtime.diagnosis.signal_checks import SignalChecks
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
+from bondgraph.runtime.diagnosis.wander import Levels
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.runtime.monitoring.plain import array, numbers
@@ -65,9 +66,11 @@ class Diagnosis:
         self._doubt = Doubt(engine, model, walks=tuning is None)
         self._origins = Origins(engine, model.memories, self._every)
         self._past: deque[Row] = deque(maxlen=int(_MEMORY))
+        self._levels = Levels(len(used))
         self._learning: Learning | None = None
         if tuning is None:
             self._learning = Learning(engine, known, used, model)
+            self._levels = self._learning.levels
             self._limits = self._learning.limits
         else:
             self._limits = np.array(limits(tuning.limits, engine.residuals), dtype=float)
@@ -215,7 +218,8 @@ class Diagnosis:
             if self._learning.over:
                 self._learning = None
         unsure = False if self._learning is None else self._learning.unsure
-        own = self._history.innovation(row, np.logical_not(unsure))
+        self._levels.ahead(self._detection.alarmed)
+        own = self._levels.beside(self._history.innovation(row, np.logical_not(unsure)))
         fresh = self._detection.row(own, self._limits)
         if fresh.any():
             self._fire(row.time, fresh, [], out)
@@ -256,8 +260,19 @@ class Diagnosis:
         wait = int(_MEMORY) if waits else max(HEALTHY, int(self._detection.held.max(initial=0)))
         while len(self._calm) > wait:
             old = self._calm.popleft()
+            self._levels.learn(*self._beside(old))
             self._history.add(old.value, self._weight(old), old.slopes)
             self._origins.learn(self._tolerated, self._history)
+
+    def _beside(self, row: Row) -> tuple[Array, Mask]:
+        """What a row is beside the parameters that healthy rows have told of."""
+        own = self._history.innovation(row, np.ones(len(row.value), dtype=np.bool_))
+        known = np.isfinite(self._limits[:, 0])
+        if own.average is None:
+            return own.value, own.valid & known
+        lasting = self._limits[:, 6] > 0.0
+        value = np.where(lasting, own.average.value - self._limits[:, 7], own.value)
+        return value, np.where(lasting, own.average.valid, own.valid) & known
 
     def _weight(self, row: Row) -> Array:
         return weight(row, self._limits[:, 0])
@@ -393,6 +408,7 @@ class Diagnosis:
         self._judge.succeed(other._judge)
         self._origins.resume(other._origins.state(known[self._lasting :]))
         self._checks.resume({**other._checks.state(), "active": []})
+        self._levels.resume(other._levels.state())
         if self._learning is not None and other._learning is not None:
             self._learning.resume(other._limits, other._learning.state())
         elif other._learning is None:
@@ -413,6 +429,7 @@ class Diagnosis:
             "origins": self._origins.state(self._tolerated[self._lasting :]),
             "unusual": self._checks.state(),
             "driving": self._learning and self._learning.state(),
+            "levels": self._levels.state(),
         }
 
     def resume(self, state: dict[str, Any]) -> None:
@@ -430,6 +447,7 @@ class Diagnosis:
         self._detection, self._judge.latched = detection, latched
         self._origins.resume(state["origins"])
         self._checks.resume(state["unusual"])
+        self._levels.resume(state["levels"])
         if self._learning is not None:
             self._learning.resume(levels, state["driving"])
             self._limits = levels

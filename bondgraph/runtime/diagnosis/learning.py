@@ -12,10 +12,11 @@ import numpy as np
 from bondgraph.runtime.diagnosis.driving import Driving
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
-from bondgraph.runtime.diagnosis.noise import noise, uncovered, within
+from bondgraph.runtime.diagnosis.noise import Noise, noise, uncovered, within
 from bondgraph.runtime.diagnosis.row_averages import lasting
 from bondgraph.runtime.diagnosis.rows import Part, Row, variances
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
+from bondgraph.runtime.diagnosis.wander import Levels, wander
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.plain import array
@@ -68,6 +69,7 @@ class Learning:
         used: Mask,
         model: DiagnosisModel,
     ) -> None:
+        self.levels = Levels(len(used))  #: where residuals stand as they wander
         counted = {h.fault for h in known if h.unit == COUNT}  # exact, however far they have come
         self._gains = tuple(h for h in known if h.kind == "gain" and h.fault not in counted)
         self._engine = engine
@@ -308,7 +310,20 @@ class Learning:
             own = np.where(np.isfinite(values), average[:, k], math.nan)
             wider = self.limits[k, 0] / spread if spread > 0.0 else 1.0
             self.limits[k, 6:] = self._averages(k, own, float(owed[k]), found.mean, wider)
+            self._walk(k, values, own, found)
         return unknown
+
+    def _walk(self, k: int, values: Array, averages: Array, found: Noise) -> None:
+        """How the level of a residual wanders, and what noise there is beside that.
+
+        By the averages of rows where these are known, else by rows. Sums reckon with no more noise.
+        """
+        lasts = bool(self.limits[k, 6] > 0.0)
+        path = wander(averages if lasts else values)
+        mean = found.mean + float(self.limits[k, 7]) if self._centred[k] else 0.0
+        self.levels.begin(k, path, mean, found.rows)
+        self.limits[k, 5] = max(path.less**2 * found.memory, min(found.memory, 1.0))
+        self.limits[k, 6] *= path.less
 
     def _averages(self, k: int, values: Array, owed: float, mean: float, wider: float) -> Array:
         """What the averages of rows tell, as `Limit` has it behind the numbers of rows.

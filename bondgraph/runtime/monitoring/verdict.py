@@ -12,8 +12,8 @@ from bondgraph.text.tuples import NamedTuple
 
 #: What a verdict can be about, in the order of a watch.
 EVENTS = (
-    "start", "resumed", "warm-up", "fault", "update", "cleared", "accepted", "invalid", "late",
-    "gap", "heartbeat", "stop",
+    "start", "resumed", "warm-up", "fault", "update", "cleared", "accepted", "refused",
+    "invalid", "late", "gap", "heartbeat", "stop",
 )  # fmt: skip
 
 

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 
+import bondgraph
 from bondgraph.algebra.implicit import invert
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions, branches
@@ -85,6 +86,30 @@ def test_any_seed_finds_what_a_relation_depends_on(seed: int) -> None:
     found = Reactions(Plant(c.graph), seed).at_free_signals(expr)
     assert {s.symbol.name for s, hit in found.depends.items() if hit} == {"u", "i"}
     assert {s.symbol.name: n for s, n in found.orders.items()} == {"u": 0, "i": 1}
+
+
+#: A cylinder with a valve to a supply and to the air: the pressure of the air matters only while
+#: air goes out and does not choke, between one and 1.9 times that pressure.
+_VALVE = """bg 1
+model Cylinder {
+  param ps = 6e5 Pa
+  param p0 = 1e5 Pa
+  param k = 2e-9
+  param V = 2.4e-9
+  input u
+  0:p { -> C:v = V; -> De:m }
+  MSf:valve {
+    f = k*u*if(u > 0, if(p.e < 0.528*ps, ps, 2*sqrt(p.e*(ps - p.e))),
+               if(p0 < 0.528*p.e, p.e, 2*sqrt(p0*(p.e - p0))))
+  } -> p
+}
+"""
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_fault_that_shows_in_a_narrow_range_of_large_numbers_is_seen(seed: int) -> None:
+    c = bondgraph.compile(text=_VALVE, seed=seed)
+    assert set(c.signatures.signature("r1")) == {"ps", "p0", "k", "V", "u", "m"}
 
 
 def test_a_relation_rests_on_no_more_than_says_too_much_about_what_it_is_told() -> None:

@@ -55,6 +55,52 @@ change = "*= 1.5"
 at = "1400 s"
 """
 
+_TURNED = """bg 1
+model Motor {
+    param R = 2 Ohm +- 5%
+    param L = 10 mH +- 5%
+    param k = 0.5 N.m/A +- 5%
+    param J = 0.02 kg.m^2 +- 5%
+    param f = 0.02 N.m.s/rad +- 5%
+    1:coil { <- Se:U; -> R:R; -> I:L; -> Df:i; -> GY:k -> 1:rotor }
+    rotor { -> R:f; -> I:J; -> Df:w }
+    sensor turned : rad = int(rotor.f) counts 4096/turn
+}
+"""
+_TURNING = """
+duration = "30 s"
+inputs.U = "12*(1 + 0.3*sin(2*t))"
+sampling.rate = "200 Hz"
+sensors.i.noise = "5 mA"
+sensors.w.noise = "0.05 rad/s"
+[[fault]]
+of = "turned"
+change = "*= 1.05"
+at = "14 s"
+"""
+_LOOP = """bg 1
+model Tank {
+    input r : m
+    param A = 0.05 m^2 +- 5%
+    param K = 0.02 m^2/s
+    param g = 0.004 m^2/s +- 5%
+    0:t { <- Sf:pump = K*(r - y); -> C:C = A; -> R:out = 1/g; -> De:y; -> De:y2 }
+    sensor u = K*(r - y)
+}
+"""
+_FILLING = """
+duration = "600 s"
+inputs.r = "1 + 0.3*sin(t/7)"
+sampling.rate = "10 Hz"
+sensors.y.noise = 0.002
+sensors.y2.noise = 0.002
+sensors.u.noise = 0.00002
+[[fault]]
+of = "y"
+change = "+= 0.1"
+at = "300 s"
+"""
+
 
 @cache
 def _motor() -> Compilation:
@@ -188,6 +234,35 @@ def test_a_state_that_cannot_be_is_refused(wrong: list[object]) -> None:
     state = watch.state()
     with pytest.raises((KeyError, TypeError, ValueError)):
         watch.resume({**state, "accepted": [wrong]})
+
+
+@pytest.mark.parametrize(
+    ("text", "scenario", "rate", "why"),
+    [
+        (_TURNED, _TURNING, 200.0, "turned is an encoder, whose counts are not corrected"),
+        (_LOOP, _FILLING, 10.0, "laws of the model use what y reads"),
+    ],
+)
+def test_what_cannot_be_accepted_is_said_once(
+    tmp_path: Path, text: str, scenario: str, rate: float, why: str
+) -> None:
+    (tmp_path / "s.toml").write_text(scenario)
+    c = Compilation(Source("m.bg", text)).with_options(rate=rate)
+    log = c.simulate(c.scenario(tmp_path / "s.toml")).log
+    engine = c.engine()
+    watch, said = c.accepting(engine, after=600.0 / rate), []
+    for piece in on_grid(engine, log):
+        for k in range(0, len(piece.time), 1000):
+            own = slice(k, k + 1000)
+            samples = piece.samples[own]
+            said += watch.update(piece.time[own], engine.run(samples), samples)
+            state = json.loads(json.dumps(watch.state()))
+            watch.resume(state) if state["refused"] else None  # a restart does not say it again
+    events = [v.event for v in said if v.event not in ("warm-up", "update")]
+    assert events == ["fault", "refused"] and watch.accepted == ()
+    (refused,) = (v for v in said if v.event == "refused")
+    (fault,) = refused.group
+    assert refused.message == f"{fault} cannot be accepted, and stays in alarm: {why}"
 
 
 def test_nothing_is_accepted_that_was_not_named(tmp_path: Path) -> None:

@@ -106,6 +106,17 @@ def test_one_fault_alone_is_never_taken_for_two(fault: str) -> None:
     assert updates and not any(v.pairs for v in updates)
 
 
+def test_two_at_once_are_not_accepted_and_that_is_said() -> None:
+    c = _line()
+    t, samples = _samples(5, {"R1": (60.0, 1.3), "R3": (60.0, 1.4)})
+    engine = c.engine()
+    watch = c.accepting(engine, after=10.0)
+    said = watch.update(t, engine.run(samples), samples)
+    (refused,) = (v for v in said if v.event == "refused")
+    assert refused.message.endswith("stays in alarm: these are two faults at once")
+    assert set(refused.pairs[0].faults) == {"R[1]", "R[3]"} and watch.accepted == ()
+
+
 def test_a_healthy_line_has_neither() -> None:
     assert not any(v.event in ("fault", "update") for v in _watched(7, {}))
 

@@ -1,0 +1,143 @@
+"""Levels that wander: what rows tell of them, the filter that follows, a machine that drifts."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+
+import numpy as np
+import pytest
+
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.wander import NONE, Levels, Wander, wander
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.text.source import Source
+
+
+def _drawn(seed: int, rows: int, step: float, kept: float = 0.0) -> Array:
+    """A walk beside noise of variance 1 with a correlation from row to row."""
+    draw = np.random.default_rng(seed)
+    noise, own = np.empty(rows), draw.normal()
+    for k in range(rows):
+        noise[k] = own = kept * own + np.sqrt(1.0 - kept**2) * draw.normal()
+    return noise + np.cumsum(step * draw.normal(size=rows))
+
+
+def _steps(rows: int, step: float, kept: float = 0.0) -> Array:
+    return np.array([wander(_drawn(seed, rows, step, kept)).step for seed in range(40)])
+
+
+@pytest.mark.parametrize("step", [0.1, 0.3, 1.0])
+def test_the_step_of_a_walk_is_found(step: float) -> None:
+    found = _steps(200, step)
+    assert 0.75 * step < np.sqrt(np.mean(found**2)) < 1.3 * step
+
+
+def test_noise_that_stands_still_has_room_while_few_rows_tell() -> None:
+    """It shrinks faster than one over the rows: by a walk of step s they were off by s sqrt(n)."""
+    few, some, many = (float(np.sqrt(np.mean(_steps(n, 0.0) ** 2))) for n in (20, 80, 320))
+    assert many < some / 4.0 < few / 12.0
+    assert some * np.sqrt(80.0) < 0.5
+
+
+def test_noise_with_a_memory_is_no_walk_once_rows_show_that_it_ends() -> None:
+    assert float(np.median(_steps(400, 0.0, kept=0.7))) < 0.03
+
+
+@pytest.mark.parametrize(("scale", "shift"), [(1e-6, 0.0), (3.0, 1e4), (-2.0, -5.0)])
+def test_units_and_zeros_are_no_matter(scale: float, shift: float) -> None:
+    values = _drawn(3, 60, 0.2)
+    one, other = wander(values), wander(scale * values + shift)
+    assert other.level == pytest.approx(scale * one.level + shift, rel=1e-6)
+    assert other.less == pytest.approx(one.less, rel=1e-6)
+    for name in ("step", "most", "noise"):
+        assert getattr(other, name) == pytest.approx(abs(scale) * getattr(one, name), rel=1e-5)
+
+
+def test_rows_without_a_value_let_it_wander_on() -> None:
+    values = _drawn(3, 60, 0.3)
+    gap = wander(np.append(values, np.full(20, np.nan)))
+    whole = wander(values)
+    assert gap.step == pytest.approx(whole.step, rel=1e-9) and gap.level == whole.level
+    # not exactly: the mean of a product is not that of its factors
+    assert gap.variance - whole.variance == pytest.approx(20.0 * whole.step**2, rel=1e-6)
+
+
+def test_rows_that_tell_nothing() -> None:
+    assert wander(np.ones(50)) == wander(np.full(50, np.nan)) == wander(np.arange(4.0)) == NONE
+
+
+def test_a_level_follows_as_the_best_linear_estimate() -> None:
+    """By the covariances of the levels and of the rows, all at once (Gauss and Markov)."""
+    before, step, noise, values = 0.5, 0.3, 1.2, np.array([1.0, 2.5, -0.3, 1.7])
+    levels = Levels(1)
+    levels.begin(0, Wander(step, step, 0.0, before, noise, 1.0), 0.0, 10)
+    for value in values:
+        levels.ahead(alarmed=False)
+        levels.learn(np.array([value]), np.array([True]))
+    at = np.arange(1, 5)
+    own = before + step**2 * np.minimum.outer(at, at)
+    found = own[-1] @ np.linalg.solve(own + noise**2 * np.eye(4), values)
+    left = own[-1, -1] - own[-1] @ np.linalg.solve(own + noise**2 * np.eye(4), own[-1])
+    level, variance = levels.state()[4:]
+    assert level == pytest.approx([found]) and variance == pytest.approx([left])
+    other = Levels(1)
+    other.resume(json.loads(json.dumps(levels.state())))
+    assert other.state() == levels.state()
+
+
+_TANK = """bg 1
+model Tank {
+    input q : m^3/s
+    param C = 20
+    param R = 2
+    0:liquid { <- Sf:q; -> C:C; -> R:R; -> De:p }
+}
+"""
+
+
+@cache
+def _tank() -> Compilation:
+    return Compilation(Source("tank.bg", _TANK)).with_options(rate=1.0, bandwidth=0.2)
+
+
+def _verdicts(
+    seed: int, drift: float, leak: float = 0.0, block: int = 100
+) -> list[Verdict]:
+    """Of 20 minutes of a tank of which something drains that nobody measures, and wanders by the
+    `drift` in a root of a second; a `leak` of m^3/s from 700 s to 1000 s."""
+    draw, level, rows = np.random.default_rng(seed), 2.0, []
+    drained = np.cumsum(draw.normal(0.0, drift, 1200))
+    drained[700:1000] += leak
+    for lost in drained.tolist():
+        rows.append((1.0, level))
+        rest = 2.0 * (1.0 - lost)
+        level = rest + (level - rest) * np.exp(-1.0 / 40.0)
+    samples = np.array(rows) + draw.normal(size=(1200, 2)) * [0.02, 0.002]
+    engine = _tank().engine(native=False)
+    watch, said = _tank().diagnosis(engine), []
+    for k in range(0, 1200, block):
+        part = samples[k : k + block]
+        said += watch.update(np.arange(k, k + len(part)) * 1.0, engine.run(part), part)
+    return said
+
+
+def test_a_healthy_machine_that_wanders_is_no_fault() -> None:
+    """Where a level was taken for fixed, 8 of these 12 had an alarm."""
+    alarms = [any(v.event == "fault" for v in _verdicts(seed, 3e-4)) for seed in range(12)]
+    assert sum(alarms) <= 1
+
+
+def test_how_samples_come_together_is_no_matter() -> None:
+    one, other = (_verdicts(1, 3e-4, leak=0.06, block=block) for block in (100, 37))
+    assert [v[:3] for v in one] == [v[:3] for v in other]
+    assert any(v.event == "cleared" for v in one)
+
+
+def test_beside_that_a_fault_is_seen_and_is_over_when_it_is_gone() -> None:
+    for seed in range(6):
+        said = _verdicts(seed, 3e-4, leak=0.06)
+        first = next(v.time for v in said if v.event == "fault")
+        over = next(v.time for v in said if v.event == "cleared" and v.time > 1000.0)
+        assert 700.0 < first < 790.0 and over < 1100.0
