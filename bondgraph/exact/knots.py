@@ -48,9 +48,10 @@ class Begun(Protocol):
 def budget(attempt: int) -> int:
     """How often an attempt to find a point may evaluate the laws; 0 if it solves one by one.
 
-    Every second one is begun anew by the universal sequence 1, 1, 2, 1, 1, 2, 4, 1, ...: whatever a
-    run needs, this takes little more than the best time to give up (Luby, Sinclair and Zuckerman,
-    Optimal Speedup of Las Vegas Algorithms, 1993, section 3).
+    Every second one has a run by the universal sequence 1, 1, 2, 1, 1, 2, 4, 1, ...: whatever runs
+    need, this takes longer than giving up at the best time by a factor that grows with the
+    logarithm of that only (Luby, Sinclair and Zuckerman, Optimal Speedup of Las Vegas Algorithms,
+    1993, section 3).
 
     >>> [budget(2 * k + 1) // 32 for k in range(15)]
     [1, 1, 2, 1, 1, 2, 4, 1, 1, 2, 1, 1, 2, 4, 8]

@@ -260,7 +260,8 @@ class Diagnosis:
         wait = int(_MEMORY) if waits else max(HEALTHY, int(self._detection.held.max(initial=0)))
         while len(self._calm) > wait:
             old = self._calm.popleft()
-            self._levels.learn(*self._beside(old))
+            if self._levels.walking:
+                self._levels.learn(*self._beside(old))
             self._history.add(old.value, self._weight(old), old.slopes)
             self._origins.learn(self._tolerated, self._history)
 

@@ -128,6 +128,11 @@ class Levels:
         self._noise, self._rows = np.zeros(residuals), np.ones(residuals)
         self._level, self._variance = np.zeros(residuals), np.zeros(residuals)
 
+    @property
+    def walking(self) -> bool:
+        """Whether any residual wanders; with a tuning none does."""
+        return bool(self._steps.any())
+
     def begin(self, k: int, found: Wander, mean: float, rows: int) -> None:
         """A residual wanders as was `found` of so many rows, whose mean is known."""
         self._steps[k], self._most[k], self._noise[k] = found.step, found.most, found.noise
@@ -153,6 +158,8 @@ class Levels:
         What a mean of so many rows is off by for their noise is no part of it: limits have room
         for that.
         """
+        if not self.walking:
+            return row
         own, noise = row.average, self._noise**2 / self._rows
         unknown = np.sqrt(np.maximum(self._variance - noise, 0.0))
         if own is not None:

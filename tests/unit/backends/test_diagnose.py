@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph import Course, Fault, Instrument, Scenario
+from bondgraph import Fault
 from bondgraph.backends.decision import ANY, NO_SIZE, UNSEEN, fault_classes
 from bondgraph.backends.write import write
 from bondgraph.ir.residual_limit import ResidualLimit, ShownSize
@@ -23,6 +23,7 @@ from bondgraph.runtime.diagnosis.cusum import on_board
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
 from bondgraph.runtime.log_file import write_log
 from tests.unit.backends.compilers import WARNINGS, compiler, python_module, run
+from tests.unit.backends.motor_errand import errand
 
 _MODEL = "models/dc_motor.bg"
 
@@ -309,20 +310,6 @@ def test_c_decides_as_python_does_digit_for_digit(
 # ---------------------------------------------------------------------------- with a tuning
 
 
-def _scenario(seed: int, *faults: Fault) -> Scenario:
-    time = np.arange(0.0, 40.05, 0.05)
-    volts = 6.0 + 2.5 * np.sin(4.4 * time) + 1.2 * np.sin(0.8 * time)
-    course = Course(None, tuple(zip(time.tolist(), volts.tolist(), strict=True)))
-    return Scenario(
-        "errand",
-        duration=40.0,
-        seed=seed,
-        inputs={"U": course, "load": Course.constant(2e-4)},
-        instruments={"speed": Instrument(noise=0.5), "current": Instrument(noise=1e-3)},
-        faults=faults,
-    )
-
-
 @cache
 def _compiled() -> Compilation:
     return bondgraph.compile(_MODEL)
@@ -332,7 +319,7 @@ def _compiled() -> Compilation:
 def _tuning() -> Tuning:
     c = _compiled()
     engine = c.engine()
-    logs = [c.simulate(_scenario(seed)).log for seed in (1, 2)]
+    logs = [c.simulate(errand(40.0, seed)).log for seed in (1, 2)]
     samples = [np.column_stack([log.columns[k.path] for k in engine.signals]) for log in logs]
     return tune(engine, c.diagnosis_model, samples, c.program.digest, 1.0, 2.0).tuning
 
@@ -347,7 +334,7 @@ def tuned(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_healthy_log_gives_no_alarm_and_a_stuck_sensor_its_class(tuned: Path) -> None:
     stuck = Fault("current", "stuck", math.nan, at=20.0)
     for name, faults in (("healthy", ()), ("stuck", (stuck,))):
-        write_log(_compiled().simulate(_scenario(9, *faults)).log, tuned / f"{name}.csv")
+        write_log(_compiled().simulate(errand(40.0, 9, *faults)).log, tuned / f"{name}.csv")
     files = ("example/example.c", "motor.c", "-lm")
     run(*compiler("gcc"), "-O2", "-I.", *files, "-o", "watch", cwd=tuned)
     for command in (("./watch",), (sys.executable, "example/example.py")):
@@ -371,7 +358,7 @@ def test_alarms_are_those_of_the_monitor(
     tuned: Path, of: str, change: Any, value: float, own: str, large: bool, named: bool
 ) -> None:
     c, tuning = _compiled(), _tuning()
-    log = c.simulate(_scenario(11, Fault(of, change, value, at=20.0))).log
+    log = c.simulate(errand(40.0, 11, Fault(of, change, value, at=20.0))).log
     engine = c.engine().configured(bandwidth=tuning.bandwidth)
     samples = np.column_stack([log.columns[k.path] for k in engine.signals])
     batch = engine.run(samples)

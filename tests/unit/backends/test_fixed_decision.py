@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph import Course, Fault, Instrument, Scenario
+from bondgraph import Fault
 from bondgraph.backends.costs import CORES, Core, missing
 from bondgraph.backends.decision import fault_classes
 from bondgraph.backends.fixed_decision import HIGHEST, ROUGH, whole_limit
@@ -30,6 +30,7 @@ from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
 from bondgraph.text.diagnostic import CompileError
 from tests.unit.backends.compilers import python_module, run
 from tests.unit.backends.fixed_models import RANGES
+from tests.unit.backends.motor_errand import errand
 from tests.unit.backends.whole_decision import ALARM, Decision, DiagnoseInC
 from tests.unit.backends.whole_numbers import WORD
 from tests.unit.backends.whole_numbers import InC as StepInC
@@ -190,25 +191,11 @@ def test_double_decides_the_same_of_the_same_residuals(double: ModuleType, seed:
     assert alarms > 1000
 
 
-def _scenario(seed: int, *faults: Fault) -> Scenario:
-    time = np.arange(0.0, 40.05, 0.05)
-    volts = 6.0 + 2.5 * np.sin(4.4 * time) + 1.2 * np.sin(0.8 * time)
-    course = Course(None, tuple(zip(time.tolist(), volts.tolist(), strict=True)))
-    return Scenario(
-        "errand",
-        duration=20.0,
-        seed=seed,
-        inputs={"U": course, "load": Course.constant(2e-4)},
-        instruments={"speed": Instrument(noise=0.5), "current": Instrument(noise=1e-3)},
-        faults=faults,
-    )
-
-
 def test_a_healthy_log_gives_no_alarm_and_a_stuck_sensor_its_class(tmp_path: Path) -> None:
     """The whole way: a tuning of a log, C in whole numbers, samples as whole numbers."""
     c = bondgraph.compile(_MODEL)
     engine = c.engine()
-    log = c.simulate(_scenario(1)).log
+    log = c.simulate(errand(20.0, 1)).log
     samples = [np.column_stack([log.columns[k.path] for k in engine.signals])]
     tuning = tune(engine, c.diagnosis_model, samples, c.program.digest, 1.0, 2.0).tuning
     whole = _whole(tuning)
@@ -217,7 +204,7 @@ def test_a_healthy_log_gives_no_alarm_and_a_stuck_sensor_its_class(tmp_path: Pat
     step, found = StepInC(fixed, tmp_path, "motor"), DiagnoseInC(tmp_path, "motor", 2, 3)
     stuck = Fault("current", "stuck", math.nan, at=10.0)
     for faults, named in (((), set()), ((stuck,), {("k", "current", "speed")})):
-        log = c.simulate(_scenario(9, *faults)).log
+        log = c.simulate(errand(20.0, 9, *faults)).log
         step.reset()
         found.reset()
         alarms, ones = [], set()
