@@ -720,8 +720,8 @@ class Code:
         ]
         whole = len(computed) == len(order) and not progress
         names = [f"r[{self._number(r)}]" for r in computed] + [n for ns in unheard for n in ns]
-        usual = "if (x->youngest > c->longest && finite_number({0})) \1"
-        rows = listing.statement(usual, " + ".join(names), target, 4)
+        settled = "if (x->youngest > c->longest && finite_number({0})) \1"
+        rows = listing.statement(settled, " + ".join(names), target, 4)
         longest = max(
             (r for r in self.program.residuals if not r.unavailable),
             key=lambda r: r.settle, default=None,
@@ -734,7 +734,7 @@ class Code:
             "unheard": starts,
             "hears": any(unheard),
             "progress": progress,
-            "usual": [row.replace("\1", "{") for row in rows] if whole else [],
+            "all_settled": [row.replace("\1", "{") for row in rows] if whole else [],
             "longest": "" if longest is None else f"c->settle[{self._number(longest.name)}]",
         }
 

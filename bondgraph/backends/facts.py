@@ -25,7 +25,7 @@ from bondgraph.notation.walk import functions, nodes, reads
 from bondgraph.text.tuples import NamedTuple
 
 #: Changes when a struct or a function of the generated code changes.
-ABI = 3
+ABI = 4
 
 #: The least bandwidth * sample_time at which a filter still moves, for double and for float.
 SLOWEST, SLOWEST_FLOAT = 1e-9, 1e-4

@@ -86,7 +86,7 @@ class _Code:
         self.prefix = self.about.stem.upper()
         self.factors: dict[tuple[int, int, str], str] = {}
         self.taken: set[str] = set(target.words) | {"settle", "longest"}
-        states = frozenset(self.spelling.states.values()) | {"age", "youngest", "usual"}
+        states = frozenset(self.spelling.states.values()) | {"age", "youngest"}
         names = spellings(self.spelling.encoders.values(), target.words | states)
         self.encoders = {key: names[own] for key, own in self.spelling.encoders.items()}
         self.counted = {k.name for k in self.program.knowns if k.counts is not None}
@@ -281,7 +281,7 @@ class _Code:
             "computed": len(computed),
             "good": good,
             "guards": [g for b in self.fixed.blocks for g in self._guards(b)],
-            "usual": len(computed) == len(order),
+            "all_settled": len(computed) == len(order),
             "unavailable": [
                 self.spelling.prefix + self.spelling.numbers[name]
                 for name in order

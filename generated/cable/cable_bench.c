@@ -156,19 +156,6 @@ static void run_r1(
     r[CABLE_BENCH_R1] = y1;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(cable_bench_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 1; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const cable_bench_coefficients *c,
@@ -189,7 +176,6 @@ static void count_samples(
     for (k = 0; k < 1; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 1; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -209,7 +195,6 @@ void cable_bench_reset(cable_bench_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void cable_bench_step(
@@ -227,7 +212,6 @@ void cable_bench_step(
     run_r1(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[CABLE_BENCH_R1])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }

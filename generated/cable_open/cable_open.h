@@ -26,7 +26,7 @@ typedef double cable_open_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define CABLE_OPEN_ABI (3u * 256u + (uint32_t)sizeof(cable_open_real))
+#define CABLE_OPEN_ABI (4u * 256u + (uint32_t)sizeof(cable_open_real))
 /* Identifies the model and the options that this code was made from. */
 #define CABLE_OPEN_DIGEST "be7cbcf0db70e1e1"
 
@@ -106,8 +106,7 @@ typedef struct cable_open_memory {
     cable_open_real r1_s1;  /* memory of r1: stage 1 */
     /* samples since the start of r1 */
     uint32_t age[1];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } cable_open_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -26,7 +26,7 @@ typedef double chassis_bench_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define CHASSIS_BENCH_ABI (3u * 256u + (uint32_t)sizeof(chassis_bench_real))
+#define CHASSIS_BENCH_ABI (4u * 256u + (uint32_t)sizeof(chassis_bench_real))
 /* Identifies the model and the options that this code was made from. */
 #define CHASSIS_BENCH_DIGEST "a3cde6c574100d55"
 
@@ -122,8 +122,7 @@ typedef struct chassis_bench_memory {
     chassis_bench_real r2_s1;  /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } chassis_bench_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

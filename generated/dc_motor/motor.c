@@ -254,19 +254,6 @@ static void run_r2(
     r[MOTOR_R2] = y1 - e0;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(motor_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const motor_coefficients *c,
@@ -288,7 +275,6 @@ static void count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -308,7 +294,6 @@ void motor_reset(motor_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void motor_step(
@@ -327,7 +312,6 @@ void motor_step(
     run_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[MOTOR_R1] + r[MOTOR_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < MOTOR_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -510,19 +494,6 @@ static void bound_r2(
     r[MOTOR_R2] = MATH(fabs)(w1) + MATH(fabs)(w2);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(motor_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const motor_threshold_coefficients *c,
@@ -544,7 +515,6 @@ static void bound_count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -564,7 +534,6 @@ void motor_threshold_reset(motor_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void motor_threshold_step(
@@ -583,7 +552,6 @@ void motor_threshold_step(
     bound_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[MOTOR_R1] + r[MOTOR_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < MOTOR_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double motor_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define MOTOR_ABI (3u * 256u + (uint32_t)sizeof(motor_real))
+#define MOTOR_ABI (4u * 256u + (uint32_t)sizeof(motor_real))
 /* Identifies the model and the options that this code was made from. */
 #define MOTOR_DIGEST "76c69c64c55b3c0f"
 
@@ -123,8 +123,7 @@ typedef struct motor_memory {
     motor_real r2_s1;  /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } motor_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -187,8 +186,7 @@ typedef struct motor_threshold_memory {
     motor_real r2_w2_s1;  /* memory of r2_w2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } motor_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -27,7 +27,7 @@ typedef double drive_bench_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define DRIVE_BENCH_ABI (3u * 256u + (uint32_t)sizeof(drive_bench_real))
+#define DRIVE_BENCH_ABI (4u * 256u + (uint32_t)sizeof(drive_bench_real))
 /* Identifies the model and the options that this code was made from. */
 #define DRIVE_BENCH_DIGEST "a1f731f229ac0b35"
 
@@ -157,8 +157,7 @@ typedef struct drive_bench_memory {
     drive_bench_real r2_s1;     /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } drive_bench_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -278,8 +277,7 @@ typedef struct drive_bench_threshold_memory {
     drive_bench_real r1_w10_s1;  /* memory of r1_w10: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } drive_bench_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -459,19 +459,6 @@ static void run_r2(
     r[DRIVE_AS_DRAWN_R2] = y1 - e1;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(drive_as_drawn_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const drive_as_drawn_coefficients *c,
@@ -493,7 +480,6 @@ static void count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -513,7 +499,6 @@ void drive_as_drawn_reset(drive_as_drawn_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void drive_as_drawn_step(
@@ -532,7 +517,6 @@ void drive_as_drawn_step(
     run_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[DRIVE_AS_DRAWN_R1] + r[DRIVE_AS_DRAWN_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -1509,19 +1493,6 @@ static void bound_r2(
     r[DRIVE_AS_DRAWN_R2] = REAL(0.0);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(drive_as_drawn_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const drive_as_drawn_threshold_coefficients *c,
@@ -1543,7 +1514,6 @@ static void bound_count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -1563,7 +1533,6 @@ void drive_as_drawn_threshold_reset(drive_as_drawn_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void drive_as_drawn_threshold_step(
@@ -1582,7 +1551,6 @@ void drive_as_drawn_threshold_step(
     bound_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[DRIVE_AS_DRAWN_R1] + r[DRIVE_AS_DRAWN_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double drive_as_drawn_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define DRIVE_AS_DRAWN_ABI (3u * 256u + (uint32_t)sizeof(drive_as_drawn_real))
+#define DRIVE_AS_DRAWN_ABI (4u * 256u + (uint32_t)sizeof(drive_as_drawn_real))
 /* Identifies the model and the options that this code was made from. */
 #define DRIVE_AS_DRAWN_DIGEST "3b452e0880b969c8"
 
@@ -166,8 +166,7 @@ typedef struct drive_as_drawn_memory {
     drive_as_drawn_real r2_s1;     /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } drive_as_drawn_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -321,8 +320,7 @@ typedef struct drive_as_drawn_threshold_memory {
     drive_as_drawn_real r1_w10_s1;    /* memory of r1_w10: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } drive_as_drawn_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

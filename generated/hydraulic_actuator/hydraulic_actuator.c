@@ -267,19 +267,6 @@ static void run_r2(
     r[HYDRAULIC_ACTUATOR_R2] = y1 - e0;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(hydraulic_actuator_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const hydraulic_actuator_coefficients *c,
@@ -302,7 +289,6 @@ static void count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -322,7 +308,6 @@ void hydraulic_actuator_reset(hydraulic_actuator_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void hydraulic_actuator_step(
@@ -342,7 +327,6 @@ void hydraulic_actuator_step(
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest
             && finite_number(r[HYDRAULIC_ACTUATOR_R1] + r[HYDRAULIC_ACTUATOR_R2] + s->ps)) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < HYDRAULIC_ACTUATOR_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -486,19 +470,6 @@ static void bound_r2(
     r[HYDRAULIC_ACTUATOR_R2] = MATH(fabs)(w1);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(hydraulic_actuator_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const hydraulic_actuator_threshold_coefficients *c,
@@ -521,7 +492,6 @@ static void bound_count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -541,7 +511,6 @@ void hydraulic_actuator_threshold_reset(hydraulic_actuator_threshold_memory *mem
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void hydraulic_actuator_threshold_step(
@@ -561,7 +530,6 @@ void hydraulic_actuator_threshold_step(
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest
             && finite_number(r[HYDRAULIC_ACTUATOR_R1] + r[HYDRAULIC_ACTUATOR_R2] + s->ps + s->p)) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < HYDRAULIC_ACTUATOR_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double hydraulic_actuator_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define HYDRAULIC_ACTUATOR_ABI (3u * 256u + (uint32_t)sizeof(hydraulic_actuator_real))
+#define HYDRAULIC_ACTUATOR_ABI (4u * 256u + (uint32_t)sizeof(hydraulic_actuator_real))
 /* Identifies the model and the options that this code was made from. */
 #define HYDRAULIC_ACTUATOR_DIGEST "63779d40bb1e48a8"
 
@@ -127,8 +127,7 @@ typedef struct hydraulic_actuator_memory {
     hydraulic_actuator_real r2_s1;  /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } hydraulic_actuator_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -186,8 +185,7 @@ typedef struct hydraulic_actuator_threshold_memory {
     hydraulic_actuator_real r2_w1_s1;  /* memory of r2_w1: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } hydraulic_actuator_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 #: Version of the classes and methods below.
-ABI = 3
+ABI = 4
 #: Identifies the model and the options that this code was made from.
 DIGEST = "63779d40bb1e48a8"
 

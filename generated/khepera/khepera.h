@@ -29,7 +29,7 @@ typedef double khepera_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_ABI (3u * 256u + (uint32_t)sizeof(khepera_real))
+#define KHEPERA_ABI (4u * 256u + (uint32_t)sizeof(khepera_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_DIGEST "27c51f65433098e9"
 
@@ -236,8 +236,7 @@ typedef struct khepera_memory {
     khepera_real r5_s1;     /* memory of r5: stage 1 */
     /* samples since the start of r1; r2; r3; r4; r5 */
     uint32_t age[5];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } khepera_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -423,8 +422,7 @@ typedef struct khepera_threshold_memory {
     khepera_real r3_w10_s1;  /* memory of r3_w10: stage 1 */
     /* samples since the start of r1; r2; r3; r4; r5 */
     uint32_t age[5];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } khepera_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -524,19 +524,6 @@ static void run_r3(
     r[KHEPERA_BUILT_R3] = y1;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(khepera_built_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 3; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const khepera_built_coefficients *c,
@@ -559,7 +546,6 @@ static void count_samples(
     for (k = 0; k < 3; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 3; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -579,7 +565,6 @@ void khepera_built_reset(khepera_built_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void khepera_built_step(
@@ -600,7 +585,6 @@ void khepera_built_step(
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest
             && finite_number(r[KHEPERA_BUILT_R1] + r[KHEPERA_BUILT_R2] + r[KHEPERA_BUILT_R3])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < KHEPERA_BUILT_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -3188,19 +3172,6 @@ static void bound_r3(
     r[KHEPERA_BUILT_R3] = REAL(0.0);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(khepera_built_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 3; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const khepera_built_threshold_coefficients *c,
@@ -3223,7 +3194,6 @@ static void bound_count_samples(
     for (k = 0; k < 3; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 3; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -3243,7 +3213,6 @@ void khepera_built_threshold_reset(khepera_built_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void khepera_built_threshold_step(
@@ -3264,7 +3233,6 @@ void khepera_built_threshold_step(
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest
             && finite_number(r[KHEPERA_BUILT_R1] + r[KHEPERA_BUILT_R2] + r[KHEPERA_BUILT_R3])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < KHEPERA_BUILT_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double khepera_built_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_BUILT_ABI (3u * 256u + (uint32_t)sizeof(khepera_built_real))
+#define KHEPERA_BUILT_ABI (4u * 256u + (uint32_t)sizeof(khepera_built_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_BUILT_DIGEST "278f0c7ee129e94f"
 
@@ -191,8 +191,7 @@ typedef struct khepera_built_memory {
     khepera_built_encoders e;
     /* samples since the start of r1; r2; r3 */
     uint32_t age[3];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } khepera_built_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -448,8 +447,7 @@ typedef struct khepera_built_threshold_memory {
     khepera_built_threshold_encoders e;
     /* samples since the start of r1; r2; r3 */
     uint32_t age[3];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } khepera_built_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -981,19 +981,6 @@ static void run_r5(
     r[KHEPERA_ENCODERS_R5] = y1 - e0;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(khepera_encoders_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 5; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const khepera_encoders_coefficients *c,
@@ -1018,7 +1005,6 @@ static void count_samples(
     for (k = 0; k < 5; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 5; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -1038,7 +1024,6 @@ void khepera_encoders_reset(khepera_encoders_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void khepera_encoders_step(
@@ -1062,7 +1047,6 @@ void khepera_encoders_step(
     if (x->youngest > c->longest
             && finite_number(r[KHEPERA_ENCODERS_R1] + r[KHEPERA_ENCODERS_R2]
                 + r[KHEPERA_ENCODERS_R3] + r[KHEPERA_ENCODERS_R4] + r[KHEPERA_ENCODERS_R5])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -4859,19 +4843,6 @@ static void bound_r5(
     r[KHEPERA_ENCODERS_R5] = MATH(fabs)(w1) + MATH(fabs)(w2);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(khepera_encoders_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 5; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const khepera_encoders_threshold_coefficients *c,
@@ -4896,7 +4867,6 @@ static void bound_count_samples(
     for (k = 0; k < 5; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 5; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -4916,7 +4886,6 @@ void khepera_encoders_threshold_reset(khepera_encoders_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void khepera_encoders_threshold_step(
@@ -4940,7 +4909,6 @@ void khepera_encoders_threshold_step(
     if (x->youngest > c->longest
             && finite_number(r[KHEPERA_ENCODERS_R1] + r[KHEPERA_ENCODERS_R2]
                 + r[KHEPERA_ENCODERS_R3] + r[KHEPERA_ENCODERS_R4] + r[KHEPERA_ENCODERS_R5])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double khepera_encoders_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_ENCODERS_ABI (3u * 256u + (uint32_t)sizeof(khepera_encoders_real))
+#define KHEPERA_ENCODERS_ABI (4u * 256u + (uint32_t)sizeof(khepera_encoders_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_ENCODERS_DIGEST "c71f6d3eec5facae"
 
@@ -274,8 +274,7 @@ typedef struct khepera_encoders_memory {
     khepera_encoders_encoders e;
     /* samples since the start of r1; r2; r3; r4; r5 */
     uint32_t age[5];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } khepera_encoders_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -686,8 +685,7 @@ typedef struct khepera_encoders_threshold_memory {
     khepera_encoders_threshold_encoders e;
     /* samples since the start of r1; r2; r3; r4; r5 */
     uint32_t age[5];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } khepera_encoders_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

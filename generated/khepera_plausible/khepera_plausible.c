@@ -762,19 +762,6 @@ static void run_r5(
     r[KHEPERA_PLAUSIBLE_R5] = y1;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(khepera_plausible_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 5; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const khepera_plausible_coefficients *c,
@@ -799,7 +786,6 @@ static void count_samples(
     for (k = 0; k < 5; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 5; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -819,7 +805,6 @@ void khepera_plausible_reset(khepera_plausible_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void khepera_plausible_step(
@@ -843,7 +828,6 @@ void khepera_plausible_step(
     if (x->youngest > c->longest
             && finite_number(r[KHEPERA_PLAUSIBLE_R1] + r[KHEPERA_PLAUSIBLE_R2]
                 + r[KHEPERA_PLAUSIBLE_R3] + r[KHEPERA_PLAUSIBLE_R4] + r[KHEPERA_PLAUSIBLE_R5])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -2576,19 +2560,6 @@ static void bound_r5(
     r[KHEPERA_PLAUSIBLE_R5] = REAL(0.0);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(khepera_plausible_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 5; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const khepera_plausible_threshold_coefficients *c,
@@ -2613,7 +2584,6 @@ static void bound_count_samples(
     for (k = 0; k < 5; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 5; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -2633,7 +2603,6 @@ void khepera_plausible_threshold_reset(khepera_plausible_threshold_memory *memor
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void khepera_plausible_threshold_step(
@@ -2657,7 +2626,6 @@ void khepera_plausible_threshold_step(
     if (x->youngest > c->longest
             && finite_number(r[KHEPERA_PLAUSIBLE_R1] + r[KHEPERA_PLAUSIBLE_R2]
                 + r[KHEPERA_PLAUSIBLE_R3] + r[KHEPERA_PLAUSIBLE_R4] + r[KHEPERA_PLAUSIBLE_R5])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < KHEPERA_PLAUSIBLE_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double khepera_plausible_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define KHEPERA_PLAUSIBLE_ABI (3u * 256u + (uint32_t)sizeof(khepera_plausible_real))
+#define KHEPERA_PLAUSIBLE_ABI (4u * 256u + (uint32_t)sizeof(khepera_plausible_real))
 /* Identifies the model and the options that this code was made from. */
 #define KHEPERA_PLAUSIBLE_DIGEST "07795b7084459a66"
 
@@ -254,8 +254,7 @@ typedef struct khepera_plausible_memory {
     khepera_plausible_real r5_s1;     /* memory of r5: stage 1 */
     /* samples since the start of r1; r2; r3; r4; r5 */
     uint32_t age[5];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } khepera_plausible_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -451,8 +450,7 @@ typedef struct khepera_plausible_threshold_memory {
     khepera_plausible_real r4_w1_s1;   /* memory of r4_w1: stage 1 */
     /* samples since the start of r1; r2; r3; r4; r5 */
     uint32_t age[5];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } khepera_plausible_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -311,19 +311,6 @@ static void run_r2(
     r[MICROPHONE_R2] = y1 - i_;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(microphone_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const microphone_coefficients *c,
@@ -346,7 +333,6 @@ static void count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -366,7 +352,6 @@ void microphone_reset(microphone_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void microphone_step(
@@ -385,7 +370,6 @@ void microphone_step(
     run_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[MICROPHONE_R1] + r[MICROPHONE_R2] + s->v)) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < MICROPHONE_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -546,19 +530,6 @@ static void bound_r2(
     r[MICROPHONE_R2] = MATH(fabs)(w1);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(microphone_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const microphone_threshold_coefficients *c,
@@ -580,7 +551,6 @@ static void bound_count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -600,7 +570,6 @@ void microphone_threshold_reset(microphone_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void microphone_threshold_step(
@@ -619,7 +588,6 @@ void microphone_threshold_step(
     bound_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[MICROPHONE_R1] + r[MICROPHONE_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < MICROPHONE_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double microphone_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define MICROPHONE_ABI (3u * 256u + (uint32_t)sizeof(microphone_real))
+#define MICROPHONE_ABI (4u * 256u + (uint32_t)sizeof(microphone_real))
 /* Identifies the model and the options that this code was made from. */
 #define MICROPHONE_DIGEST "5469aec7a12752db"
 
@@ -136,8 +136,7 @@ typedef struct microphone_memory {
     microphone_real r2_s1;     /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } microphone_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -197,8 +196,7 @@ typedef struct microphone_threshold_memory {
     microphone_real r2_w1_s1;  /* memory of r2_w1: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } microphone_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

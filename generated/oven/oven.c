@@ -331,19 +331,6 @@ static void run_r2(
     r[OVEN_R2] = y1 - e0;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(oven_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const oven_coefficients *c,
@@ -366,7 +353,6 @@ static void count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -388,7 +374,6 @@ void oven_reset(oven_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void oven_step(
@@ -617,19 +602,6 @@ static void bound_r2(
     r[OVEN_R2] = MATH(fabs)(w1) + MATH(fabs)(w2);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(oven_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const oven_threshold_coefficients *c,
@@ -651,7 +623,6 @@ static void bound_count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -673,7 +644,6 @@ void oven_threshold_reset(oven_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void oven_threshold_step(

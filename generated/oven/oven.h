@@ -27,7 +27,7 @@ typedef double oven_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define OVEN_ABI (3u * 256u + (uint32_t)sizeof(oven_real))
+#define OVEN_ABI (4u * 256u + (uint32_t)sizeof(oven_real))
 /* Identifies the model and the options that this code was made from. */
 #define OVEN_DIGEST "8e45fb82aac6e783"
 
@@ -128,8 +128,7 @@ typedef struct oven_memory {
     oven_real r2_s1;    /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } oven_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -193,8 +192,7 @@ typedef struct oven_threshold_memory {
     oven_real r2_w2_s1;  /* memory of r2_w2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } oven_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

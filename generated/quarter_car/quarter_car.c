@@ -253,19 +253,6 @@ static void run_r2(
     r[QUARTER_CAR_R2] = y1 - e0;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(quarter_car_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const quarter_car_coefficients *c,
@@ -287,7 +274,6 @@ static void count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -307,7 +293,6 @@ void quarter_car_reset(quarter_car_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void quarter_car_step(
@@ -326,7 +311,6 @@ void quarter_car_step(
     run_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[QUARTER_CAR_R1] + r[QUARTER_CAR_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -442,19 +426,6 @@ static void bound_r2(
     r[QUARTER_CAR_R2] = REAL(0.0);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(quarter_car_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const quarter_car_threshold_coefficients *c,
@@ -476,7 +447,6 @@ static void bound_count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -496,7 +466,6 @@ void quarter_car_threshold_reset(quarter_car_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void quarter_car_threshold_step(
@@ -515,7 +484,6 @@ void quarter_car_threshold_step(
     bound_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[QUARTER_CAR_R1] + r[QUARTER_CAR_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

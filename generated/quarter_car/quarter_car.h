@@ -27,7 +27,7 @@ typedef double quarter_car_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define QUARTER_CAR_ABI (3u * 256u + (uint32_t)sizeof(quarter_car_real))
+#define QUARTER_CAR_ABI (4u * 256u + (uint32_t)sizeof(quarter_car_real))
 /* Identifies the model and the options that this code was made from. */
 #define QUARTER_CAR_DIGEST "a4a23f21647d59cf"
 
@@ -122,8 +122,7 @@ typedef struct quarter_car_memory {
     quarter_car_real r2_s1;  /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } quarter_car_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -178,8 +177,7 @@ typedef struct quarter_car_threshold_memory {
     quarter_car_real r1_w1_s1;  /* memory of r1_w1: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } quarter_car_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -26,7 +26,7 @@ typedef double rc_loop_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define RC_LOOP_ABI (3u * 256u + (uint32_t)sizeof(rc_loop_real))
+#define RC_LOOP_ABI (4u * 256u + (uint32_t)sizeof(rc_loop_real))
 /* Identifies the model and the options that this code was made from. */
 #define RC_LOOP_DIGEST "a2538ff3a890d7b4"
 
@@ -127,8 +127,7 @@ typedef struct rc_loop_memory {
     rc_loop_real r2_s1;  /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } rc_loop_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

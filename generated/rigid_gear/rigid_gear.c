@@ -236,19 +236,6 @@ static void run_r2(
     r[RIGID_GEAR_R2] = y1;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(rigid_gear_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const rigid_gear_coefficients *c,
@@ -270,7 +257,6 @@ static void count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -290,7 +276,6 @@ void rigid_gear_reset(rigid_gear_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void rigid_gear_step(
@@ -309,7 +294,6 @@ void rigid_gear_step(
     run_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[RIGID_GEAR_R1] + r[RIGID_GEAR_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -448,19 +432,6 @@ static void bound_r2(
     r[RIGID_GEAR_R2] = REAL(0.0);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(rigid_gear_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const rigid_gear_threshold_coefficients *c,
@@ -482,7 +453,6 @@ static void bound_count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -502,7 +472,6 @@ void rigid_gear_threshold_reset(rigid_gear_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void rigid_gear_threshold_step(
@@ -521,7 +490,6 @@ void rigid_gear_threshold_step(
     bound_r2(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[RIGID_GEAR_R1] + r[RIGID_GEAR_R2])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double rigid_gear_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define RIGID_GEAR_ABI (3u * 256u + (uint32_t)sizeof(rigid_gear_real))
+#define RIGID_GEAR_ABI (4u * 256u + (uint32_t)sizeof(rigid_gear_real))
 /* Identifies the model and the options that this code was made from. */
 #define RIGID_GEAR_DIGEST "54ef4a40fa743211"
 
@@ -121,8 +121,7 @@ typedef struct rigid_gear_memory {
     rigid_gear_real r2_s1;  /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } rigid_gear_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -180,8 +179,7 @@ typedef struct rigid_gear_threshold_memory {
     rigid_gear_real r1_w2_s1;  /* memory of r1_w2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } rigid_gear_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -325,19 +325,6 @@ static void run_r1(
     r[SLIDER_CRANK_R1] = y1 - e0;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(slider_crank_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 1; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const slider_crank_coefficients *c,
@@ -358,7 +345,6 @@ static void count_samples(
     for (k = 0; k < 1; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 1; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -378,7 +364,6 @@ void slider_crank_reset(slider_crank_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void slider_crank_step(
@@ -396,7 +381,6 @@ void slider_crank_step(
     run_r1(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[SLIDER_CRANK_R1])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < SLIDER_CRANK_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -598,19 +582,6 @@ static void bound_r1(
     r[SLIDER_CRANK_R1] = MATH(fabs)(w1) + MATH(fabs)(w2);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(slider_crank_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 1; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const slider_crank_threshold_coefficients *c,
@@ -631,7 +602,6 @@ static void bound_count_samples(
     for (k = 0; k < 1; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 1; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -651,7 +621,6 @@ void slider_crank_threshold_reset(slider_crank_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void slider_crank_threshold_step(
@@ -669,7 +638,6 @@ void slider_crank_threshold_step(
     bound_r1(c, x, s, r);
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest && finite_number(r[SLIDER_CRANK_R1])) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < SLIDER_CRANK_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double slider_crank_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define SLIDER_CRANK_ABI (3u * 256u + (uint32_t)sizeof(slider_crank_real))
+#define SLIDER_CRANK_ABI (4u * 256u + (uint32_t)sizeof(slider_crank_real))
 /* Identifies the model and the options that this code was made from. */
 #define SLIDER_CRANK_DIGEST "bca41e7ed9bbec70"
 
@@ -142,8 +142,7 @@ typedef struct slider_crank_memory {
     slider_crank_real r1_s1;     /* memory of r1: stage 1 */
     /* samples since the start of r1 */
     uint32_t age[1];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } slider_crank_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -213,8 +212,7 @@ typedef struct slider_crank_threshold_memory {
     slider_crank_real r1_w2_s1;     /* memory of r1_w2: stage 1 */
     /* samples since the start of r1 */
     uint32_t age[1];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } slider_crank_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

@@ -272,19 +272,6 @@ static void run_r2(
     r[TWO_TANKS_R2] = y1 - e0;
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bring_up_to_date(two_tanks_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void count_samples(
     const two_tanks_coefficients *c,
@@ -307,7 +294,6 @@ static void count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -327,7 +313,6 @@ void two_tanks_reset(two_tanks_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void two_tanks_step(
@@ -347,7 +332,6 @@ void two_tanks_step(
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest
             && finite_number(r[TWO_TANKS_R1] + r[TWO_TANKS_R2] + s->p2 + s->p1)) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < TWO_TANKS_RESIDUALS; ++k) {
             residuals->valid[k] = true;
         }
@@ -516,19 +500,6 @@ static void bound_r2(
     r[TWO_TANKS_R2] = MATH(fabs)(w1) + MATH(fabs)(w2);
 }
 
-/* Adds the samples that were as usual to all ages. */
-static void bound_bring_up_to_date(two_tanks_threshold_memory *x)
-{
-    int k;
-
-    for (k = 0; k < 2; ++k) {
-        const uint32_t left = UINT32_MAX - x->age[k];
-
-        x->age[k] += x->usual < left ? x->usual : left;
-    }
-    x->usual = 0u;
-}
-
 /* Ages and validity one by one: a number that is not finite makes the next sample the first. */
 static void bound_count_samples(
     const two_tanks_threshold_coefficients *c,
@@ -551,7 +522,6 @@ static void bound_count_samples(
     for (k = 0; k < 2; ++k) {
         finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
     }
-    bound_bring_up_to_date(x);
     x->youngest = UINT32_MAX;
     for (k = 0; k < 2; ++k) {
         x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
@@ -571,7 +541,6 @@ void two_tanks_threshold_reset(two_tanks_threshold_memory *memory)
         memory->age[k] = 0u;
     }
     memory->youngest = 0u;
-    memory->usual = 0u;
 }
 
 void two_tanks_threshold_step(
@@ -591,7 +560,6 @@ void two_tanks_threshold_step(
     /* a sum is finite only if all its terms are */
     if (x->youngest > c->longest
             && finite_number(r[TWO_TANKS_R1] + r[TWO_TANKS_R2] + s->p1 + s->p2 + s->p1 + s->p2)) {
-        x->usual += x->usual < UINT32_MAX ? 1u : 0u;
         for (k = 0; k < TWO_TANKS_RESIDUALS; ++k) {
             thresholds->valid[k] = true;
         }

@@ -27,7 +27,7 @@ typedef double two_tanks_real;
 #endif
 
 /* Version of the structs and functions, and the size of a number. */
-#define TWO_TANKS_ABI (3u * 256u + (uint32_t)sizeof(two_tanks_real))
+#define TWO_TANKS_ABI (4u * 256u + (uint32_t)sizeof(two_tanks_real))
 /* Identifies the model and the options that this code was made from. */
 #define TWO_TANKS_DIGEST "26aab99ccf26bb92"
 
@@ -124,8 +124,7 @@ typedef struct two_tanks_memory {
     two_tanks_real r2_s1;  /* memory of r2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } two_tanks_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a
@@ -185,8 +184,7 @@ typedef struct two_tanks_threshold_memory {
     two_tanks_real r2_w2_s1;  /* memory of r2_w2: stage 1 */
     /* samples since the start of r1; r2 */
     uint32_t age[2];
-    /* the least of these, and samples since that all were as usual */
-    uint32_t youngest, usual;
+    uint32_t youngest; /* the least of these; ages stand still once all have settled */
 } two_tanks_threshold_memory;
 
 /* The coefficients of the model's own parameters at the sample time and the bandwidth above: a

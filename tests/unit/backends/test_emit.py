@@ -107,7 +107,7 @@ def test_every_field_says_unit_and_meaning() -> None:
     text = _text("motor.h")
     assert "motor_real R;  /* Ohm: resistance, el.R (motor.bg:3) */" in text
     assert '#define MOTOR_DIGEST "0123456789abcdef"' in text
-    assert "#define MOTOR_ABI (3u * 256u + (uint32_t)sizeof(motor_real))" in text
+    assert "#define MOTOR_ABI (4u * 256u + (uint32_t)sizeof(motor_real))" in text
 
 
 @pytest.mark.parametrize(
