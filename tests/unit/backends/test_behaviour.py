@@ -117,6 +117,17 @@ def test_warm_up_lasts_as_long_as_said(tmp_path: Path) -> None:
         assert in_c.step(**_GOOD)[1] == [tick >= 250] * 2
 
 
+def test_a_slower_filter_is_waited_for(tmp_path: Path) -> None:
+    """A second at 20 rad/s, then 10 rad/s, which takes 250 samples longer to settle."""
+    _, in_c = _both(tmp_path)
+    for _ in range(1000):
+        in_c.step(**_GOOD)
+    memory = in_c.memory.raw
+    assert in_c.configure(0.001, 10.0, 1.0) == 0
+    in_c.memory.raw = memory
+    assert [in_c.step(**_GOOD)[1] for _ in range(251)] == [[False] * 2] * 249 + [[True] * 2] * 2
+
+
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 def test_a_bad_sample_stops_only_what_sees_it(bad: float, tmp_path: Path) -> None:
     step, in_c = _both(tmp_path)
