@@ -13,6 +13,7 @@ from tests.bench import (
     alarm,
     batch,
     cortex,
+    generators,
     growth,
     instructions,
     peers,
@@ -85,6 +86,7 @@ def main() -> None:
     simulation.report(short)
     print()
     instructions.report()
+    generators.report()
     cortex.report()
     print()
     batch.report(short)

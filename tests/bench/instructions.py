@@ -29,14 +29,19 @@ def build(folder: Path, *options: str) -> Path:
 
 
 def counted(program: Path, which: str) -> float:
-    """Instructions of one settled step, library calls included, by valgrind's callgrind."""
-    return (_all(program, which, SETTLED + STEPS) - _all(program, which, SETTLED)) / STEPS
+    """Instructions of one settled step, `hand` or `generated`."""
+    return each({"hand": "hand_step", "generated": "khepera_step"}[which], program, which)
 
 
-def _all(program: Path, which: str, steps: int) -> int:
-    function = {"hand": "hand_step", "generated": "khepera_step"}[which]
+def each(function: str, program: Path, *words: str) -> float:
+    """Instructions of one settled call, library calls included, by valgrind's callgrind."""
+    few, many = (_all(function, program, *words, str(n)) for n in (SETTLED, SETTLED + STEPS))
+    return (many - few) / STEPS
+
+
+def _all(function: str, program: Path, *words: str) -> int:
     command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
-    command += [f"--toggle-collect={function}", str(program), which, str(steps)]
+    command += [f"--toggle-collect={function}", str(program), *words]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     found = re.search(r"Collected : (\d+)", done.stderr)
     assert found is not None, done.stderr

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import os
 import tempfile
 from pathlib import Path
 
-from tests.bench import cortex, instructions
+from tests.bench import cortex, generators, instructions
+from tests.bench.peers import interpreter
 from tests.measured import ROOT, write
 
 PAGE = ROOT / "docs" / "firmware.md"
@@ -14,11 +16,18 @@ COMMAND = "python -m tests.bench.step_costs --write"
 
 
 def table() -> str:
-    """Three rows in Markdown."""
+    """A row for each kind of arithmetic, in Markdown."""
+    os.environ.setdefault("BONDGRAPH_BENCH_PEERS", str(ROOT / ".venv" / "generators"))
+    there = [(one, python) for one in generators.GENERATORS if (python := interpreter(one.peer))]
+    if len(there) < len(generators.GENERATORS):
+        raise SystemExit("the other generators are not installed: make .venv/generators.stamp")
+    others = [one.peer.name for one, _ in there]
     rows = [
-        "| numbers, core | instructions a step | by hand | code of step | coefficients | RAM |",
-        "|---|---|---|---|---|---|",
+        f"| numbers, core | instructions a step | by hand | {' | '.join(others)} |"
+        " code of step | coefficients | RAM |",
+        "|---|---|---|" + "---|" * (len(others) + 3),
     ]
+    blank = "| " * len(others)
     for name, options in (
         ("double, x86-64", ()),
         (f"the same with fused products (`{' '.join(instructions.FUSED)}`)", instructions.FUSED),
@@ -26,10 +35,11 @@ def table() -> str:
         with tempfile.TemporaryDirectory() as folder:
             program = instructions.build(Path(folder), *options)
             own, hand = (instructions.counted(program, who) for who in ("generated", "hand"))
-        rows.append(f"| {name} | {own:.0f} | {hand:.0f} | | | |")
+        counts = [f"{generators.counted(g, python, *options):.0f}" for g, python in there]
+        rows.append(f"| {name} | {own:.0f} | {hand:.0f} | {' | '.join(counts)} | | | |")
     board = cortex.measured()
     rows.append(
-        f"| float, Cortex-M4F | {board.instructions:.0f} | | {board.text} B |"
+        f"| float, Cortex-M4F | {board.instructions:.0f} | {blank}| {board.text} B |"
         f" {board.coefficients} B | {board.memory} B |"
     )
     return "\n".join(rows)
