@@ -8,6 +8,8 @@ import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from tests.bench import chain, instructions
 from tests.bench.peers import Peer, interpreter
 
@@ -26,7 +28,8 @@ function = casadi.Function("chain", [cs, xs, ss], outputs)
 function.generate("chain.c")
 open("peer.cpp", "w").write('''
 extern "C" int chain(const double **, double **, long long *, double *, int);
-extern "C" void peer_step(const double *c, const double *x, double *next, const double *s, double *r)
+extern "C" void peer_step(
+    const double *c, const double *x, double *next, const double *s, double *r)
 {
     const double *given[] = {c, x, s};
     double *found[] = {next, r};
@@ -58,7 +61,8 @@ given = [f"{part}[{k}]" for part, names in zip("cxs", (chain.NAMES, chain.STATES
          for k in range(len(names))]
 found = [f"next + {k}" for k in range(len(chain.STATES))] + [f"r + {k}" for k in range(5)]
 open("peer.cpp", "w").write(text + f'''
-extern "C" void peer_step(const double *c, const double *x, double *next, const double *s, double *r)
+extern "C" void peer_step(
+    const double *c, const double *x, double *next, const double *s, double *r)
 {{
     sym::Chain<double>({", ".join(given + found)});
 }}
@@ -109,9 +113,8 @@ def counted(one: Generator, python: str, *options: str) -> float:
     with tempfile.TemporaryDirectory() as folder:
         program = build(python, one, Path(folder), *options)
         done = subprocess.run([program, "100"], check=True, capture_output=True, text=True)
-        wrong = [abs(a - b) for a, b in zip(map(float, done.stdout.split()), chain.last(100))]
-        if max(wrong) > 1e-6:
-            raise ValueError(f"{one.peer.name} computes something else, off by {max(wrong):.1e}")
+        found = np.array(done.stdout.split(), dtype=float)
+        np.testing.assert_allclose(found, chain.last(100), rtol=1e-9, err_msg=one.peer.name)
         return instructions.each(one.function, program)
 
 

@@ -71,7 +71,7 @@ PEERS = (
 def interpreter(peer: Peer) -> str | None:
     """The interpreter that has a tool, None where none has."""
     for folder in os.environ.get("BONDGRAPH_BENCH_PEERS", "").split(os.pathsep):
-        python = Path(folder) / "bin" / "python"
+        python = Path(folder).absolute() / "bin" / "python"
         if folder and python.exists():
             done = subprocess.run(
                 [python, "-c", f"import {peer.module}"], capture_output=True, check=False
