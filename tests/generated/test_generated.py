@@ -107,7 +107,7 @@ def test_compiles_and_passes_its_own_test(model: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("model", _MODELS)
-@pytest.mark.parametrize("name", ["clang", "g++", "clang++"])
+@pytest.mark.parametrize("name", ["clang", "g++", "clang++", "arm", "riscv"])
 def test_no_warning_from_any_compiler(name: str, model: str, tmp_path: Path) -> None:
     command = compiler(name)
     stem = _everything(model, tmp_path)

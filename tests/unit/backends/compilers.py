@@ -25,12 +25,15 @@ WARNINGS = (
     "-Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wfloat-equal -Werror"
 ).split()
 
-COMPILERS = {
+COMPILERS: dict[str, tuple[str, ...]] = {
     "gcc": ("gcc", "-std=c99"),
     "clang": ("clang", "-std=c99"),
     "g++": ("g++", "-x", "c++"),
     "clang++": ("clang++", "-x", "c++"),
-}
+    "arm": ("arm-none-eabi-gcc", "-std=c99", "-mcpu=cortex-m4", "-mthumb"),
+    "riscv": ("riscv64-unknown-elf-gcc", "-std=c99", "-march=rv32imac", "-mabi=ilp32",
+              "--specs=picolibc.specs"),
+}  # fmt: skip
 
 
 def compiler(name: str) -> tuple[str, ...]:
