@@ -21,7 +21,7 @@ _WORDS = {**dict.fromkeys(NO_SAMPLE, float("nan")), "true": 1.0, "false": 0.0}
 _SEPARATORS = ("\t", ";", ",")
 _EMPTY = re.compile(r"(?:^|(?<=[,;\t]))[ ]*(?=[,;\t]|\r?\n?$)")
 _COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
-_FEW, _MANY = 4, 100  # lines; fewer are not worth the start of numpy, of pyarrow
+_FEW, _MANY = 4, 1000  # lines; fewer are not worth the start of numpy, of pyarrow
 _HEAD = 1000  # lines by which the column of time is known
 
 

@@ -91,7 +91,7 @@ def main() -> None:
     print()
     batch.report(short)
     print()
-    alarm.report()
+    alarm.report(short)
     print()
     toolbox.report(1 if short else 7)
     print()

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from paho.mqtt.client import Client, MQTTMessage
     from serial import Serial
 
-_SMALL, _REST = 4096, 0.01  # bytes: after fewer a pipe is left alone for so many s
+_SMALL, _REST = 4096, 0.05  # bytes: after fewer a pipe is left alone for so many s
 _LONGEST = 5.0  # s between two attempts to open a serial port
 _AT_ONCE = 200  # messages that a broker may send before the first of them is acknowledged
 
