@@ -15,7 +15,8 @@ Everything here is loaded when it is asked for.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from bondgraph.backends.write import ForeignFiles
-    from bondgraph.pipeline import Compilation, Options, compile
+    from bondgraph.compile_options import Options
+    from bondgraph.pipeline import Compilation, compile
     from bondgraph.runtime.c_library import NativeError
     from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
     from bondgraph.runtime.fleet.monitor_logs import Fleet, monitor
@@ -36,7 +37,8 @@ if TYPE_CHECKING:
 #: Where each name comes from: what users call, construct or catch.
 _FROM = {
     "backends.write": ("ForeignFiles",),
-    "pipeline": ("Compilation", "Options", "compile"),
+    "compile_options": ("Options",),
+    "pipeline": ("Compilation", "compile"),
     "runtime.c_library": ("NativeError",),
     "runtime.diagnosis.tuning": ("Limit", "Tuning"),
     "runtime.fleet.monitor_logs": ("Fleet", "monitor"),

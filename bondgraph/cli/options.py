@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from typing import Unpack
 
+    from bondgraph.compile_options import Form, OptionValues
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.unit import Unit
-    from bondgraph.pipeline import Form, OptionValues
     from bondgraph.runtime.diagnosis.tuning import Tuning
 
 T = TypeVar("T", float, int)

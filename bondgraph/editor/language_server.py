@@ -21,6 +21,7 @@ from pygls.lsp.server import LanguageServer
 from pygls.uris import from_fs_path, to_fs_path
 
 from bondgraph import __version__
+from bondgraph.compile_options import Options
 from bondgraph.editor import semantic_tokens
 from bondgraph.editor.code_lenses import lenses
 from bondgraph.editor.completion import Proposal, complete
@@ -34,7 +35,6 @@ from bondgraph.editor.soundness import Edited, check_text
 from bondgraph.editor.text_positions import Encoding, Place, extent, offset_of
 from bondgraph.editor.workspace import Document, Workspace
 from bondgraph.frontend.formatter import format_text
-from bondgraph.pipeline import Options
 from bondgraph.text.diagnostic import CompileError, Diagnostic, Edit, Report
 from bondgraph.text.source import Source, Span
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
+from bondgraph.compile_options import Options
 from bondgraph.frontend.read import decode
 from bondgraph.passes.elaboration.files import unused
-from bondgraph.pipeline import Compilation, Options
+from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError, Diagnostic, Report
 from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from bondgraph.pipeline import Compilation, Options
+from bondgraph.compile_options import Options
+from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 from tests.docs.executed import Wrong, matches, renewed, run, steps
 from tests.docs.pages import PAGES, ROOT, named

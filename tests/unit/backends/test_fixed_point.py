@@ -14,8 +14,9 @@ import bondgraph
 from bondgraph.algebra import cubic_tanh
 from bondgraph.backends.identifiers import snake
 from bondgraph.cli.main import main
+from bondgraph.compile_options import WrongOption
 from bondgraph.ir.fixed_program import FixedProgram
-from bondgraph.pipeline import Compilation, WrongOption
+from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from tests.unit.backends.compilers import WARNINGS, compiler, run
 from tests.unit.backends.fixed_models import RANGES, Ranges

@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from bondgraph.compile_options import Options
 from bondgraph.ir.residual_limit import ShownSize
-from bondgraph.pipeline import Compilation, Options
+from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import Tuned, _by_fault, _Seen, _shown, tune
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
