@@ -65,6 +65,11 @@ class Observer(NamedTuple):
     entry: tuple[Expr, ...]
     starts: tuple[Expr, ...]
 
+    @property
+    def exprs(self) -> tuple[Expr, ...]:
+        """All that a step of the observer may ask for."""
+        return (self.measured, *self.rates, self.output, *self.entry, *self.starts)
+
 
 class Missing(NamedTuple):
     """A relation that the model has but that could not be had.

@@ -19,6 +19,7 @@ from bondgraph.text.numerals import joined
 _STEP = 1e-4  # relative size of the change that a sensitivity is taken from
 _ROUNDING = 1e-13  # of the largest number in a filter: a smaller change of its output is none
 _MOST = 20_000  # samples of one period of the signals
+_STILL = 1e-15  # of a number in a filter: it has not moved from one sample to the next
 
 
 class Situation(NamedTuple):
@@ -153,16 +154,18 @@ class Answers:
         samples = _period(self._program, self._situation)
         bound = {name: r[:samples] for name, r in self._bound.items()}
         found = told(self._program, own, self._lasting, bound, self._sigma, self._situation.kappa)
-        rows = [s._replace(delay=self.delay(s.fault, s.residual, 2.0 * (s.change or 0.0)))
+        rows = [s if s.change is None else
+                s._replace(delay=self.delay(s.fault, s.residual, 2.0 * s.change))
                 for s in found.smallest]  # fmt: skip
         return found._replace(smallest=tuple(rows))
 
     def delay(self, fault: str, residual: str, size: float) -> float | None:
         """Seconds from the onset of a lasting change until it is sure to be seen, None for never.
 
-        Fault and residual by path, `size` in the unit of the fault.
+        Fault and residual by path, `size` in the unit of the fault; 0 is any size, where nothing
+        hides it.
         """
-        moved = self._moved(fault, residual, size)
+        moved = self._moved(fault, residual, size or 1.0)
         if moved is None:
             return None
         seen = np.flatnonzero(np.abs(moved) >= 1.0)
@@ -203,7 +206,7 @@ class Answers:
         slope = self._course[fault][info.name]
         bound, kappa = self._bound.get(info.name), self._situation.kappa
         need = _needed(own, np.abs(slope), bound, sigma, kappa)
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore"):
             moved = np.where(slope != 0.0, slope * size / need, 0.0)
         return -moved if own.turned else moved
 
@@ -371,6 +374,8 @@ def _simulated(
     modes = {m.name: situation.at.get(m.path, 1.0) != 0 for m in program.knowns if m.kind == "mode"}
     states: dict[str, Any] | None = None
     before: dict[str, Any] = {}
+    turning = any(situation.at.get(x.path) for x in program.knowns if x.counts is not None)
+    constant, still = not (turning or any(situation.swing.values())), False
     for k in range(end + _period(program, situation)):
         signals: dict[str, Any] = {}
         increments: dict[str, Any] = {}
@@ -388,13 +393,21 @@ def _simulated(
                 totals[known.name] = (told - start) * turn
                 before[known.name] = told
         now = well if k < begin else run
-        residuals, states = now.sample(signals, increments, totals, modes, states)
+        if k == begin or not still:
+            residuals, after = now.sample(signals, increments, totals, modes, states)
+            still = constant and states is not None and _unmoved(states, after)
+            states = after
         if k >= valid:
             for name, value in residuals.items():
                 rows[name].append(np.broadcast_to(np.asarray(value, dtype=float), (runs,)))
                 for state in own[name]:
                     sizes[name] = np.maximum(sizes[name], np.abs(states[state]))
     return {name: np.array(r) for name, r in rows.items()}, sizes
+
+
+def _unmoved(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
+    """Whether a memory is as it was, but for roundings: with the same signals it stays so."""
+    return all(np.all(np.abs(after[name] - x) <= _STILL * np.abs(x)) for name, x in before.items())
 
 
 def _signal(known: Known, t: float, situation: Situation) -> float:

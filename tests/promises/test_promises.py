@@ -29,6 +29,14 @@ def test_every_model_file(first: int) -> None:
     assert wrong == {}
 
 
+def test_every_model_with_observers() -> None:
+    wrong = {}
+    for file in _MODELS:
+        found = broken_stages(compile(file, form="observer"))
+        wrong |= {(file.name, stage): lines for stage, lines in found.items() if lines}
+    assert wrong == {}
+
+
 @pytest.mark.parametrize("first", range(0, 60, _BATCH))
 def test_random_graphs(first: int) -> None:
     wrong = {}

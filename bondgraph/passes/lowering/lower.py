@@ -154,14 +154,15 @@ def lower(
     wanted = builder.used
     for tape in tapes:
         wanted += [] if tape is None else tape.scales
+    asked = [*exprs, *(e for one in observers.values() for e in one.exprs)]
     program = Program(
         name=graph.name,
         title=graph.doc.split("\n\n")[0].replace("\n", " ").strip(),
         source=graph.source.path.replace("\\", "/").rpartition("/")[2],
         digest="",
         params=builder.param_fields(wanted),
-        knowns=builder.known_fields([*exprs, *switched.read]),
-        delayed=builder.delayed_fields([*exprs, *switched.read]),
+        knowns=builder.known_fields([*asked, *switched.read]),
+        delayed=builder.delayed_fields([*asked, *switched.read]),
         coefs=tuple(builder.fields),
         states=tuple(s for low in lowered for s in low.states),
         residuals=tuple(low.info for low in lowered),
@@ -174,7 +175,7 @@ def lower(
         bandwidth=options.bandwidth or options.rate / 50,
         warmup=max([_warmup(low.info) for low in lowered], default=0.0),
         tables=(),
-        roots=newton_blocks(graph.pool, exprs),
+        roots=newton_blocks(graph.pool, asked),
         integrals=tuple(builder.integrals.values()),
         time_unit=time_unit,
         openings=tuple(low.opening for low in lowered if low.opening is not None),

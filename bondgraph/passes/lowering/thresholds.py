@@ -183,7 +183,7 @@ def _followed(
     except TooManyOperations:
         return _none(out, f"written out it takes more than {LARGEST} operations")
     out.first, out.step, out.states = chain.first, chain.step, chain.states
-    out.exprs = [observer.measured, *observer.rates, observer.output]
+    out.exprs = list(observer.exprs)
     out.info = out.info._replace(text=text, faults=words, invisible=())
     return out
 

@@ -229,3 +229,28 @@ def test_tolerances_stay_below_the_threshold() -> None:
         shares.append(np.abs(run(c, told))[300:] / np.array(allowed)[300:])
     assert max(np.max(s) for s in shares) < 1.05  # a threshold is of first order
     assert max(np.max(s) for s in shares) > 0.8
+
+
+def test_the_threshold_of_a_law_without_a_closed_inverse() -> None:
+    """A spring that hardens, whose displacement at rest is a root: off by its tolerances."""
+    law = "C:s { e = k*q + k3*q^3 }"
+    text = f"""bg 1
+model M {{
+    param k = 3 +- 5%
+    param k3 = 2 +- 5%
+    Se:F -> 1:v {{ -> I:m = 1; -> R:b = 1; -> {law}; -> Df:y }}
+}}
+"""
+    c = model(text, rate=200.0)
+    assert c.thresholds is not None and [r.name for r in c.thresholds.roots] == ["s.q"]
+    t = np.arange(0.0, 20.0, 1.0 / 200.0)
+
+    def rates(t: float, x: np.ndarray) -> list[float]:
+        spring = 1.05 * (3.0 * x[0] + 2.0 * x[0] ** 3)
+        return [x[1], 2.0 * np.sin(2.0 * t) - x[1] - spring]
+
+    speed = solve_ivp(rates, (0.0, 20.0), [0.0, 0.0], t_eval=t, rtol=1e-9, atol=1e-10).y[1]
+    found = c.engine(native=False).run(np.column_stack([2.0 * np.sin(2.0 * t), speed]))
+    valid = found.valid[:, 0]
+    most = np.abs(found.value[valid, 0]).max()
+    assert most > 0.04 and found.bound[valid, 0].max() == pytest.approx(most, rel=0.02)
