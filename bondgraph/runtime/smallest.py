@@ -393,7 +393,7 @@ def _simulated(
                 totals[known.name] = (told - start) * turn
                 before[known.name] = told
         now = well if k < begin else run
-        if k == begin or not still:
+        if k == begin or states is None or not still:
             residuals, after = now.sample(signals, increments, totals, modes, states)
             still = constant and states is not None and _unmoved(states, after)
             states = after
