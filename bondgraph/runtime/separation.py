@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import cholesky, solve_discrete_lyapunov, solve_triangular
+from scipy.linalg import solve_discrete_lyapunov
 
 from bondgraph.ir.program import Program
 from bondgraph.runtime.log import Array
@@ -88,9 +88,9 @@ def separation(
     rows = size > 0
     s = s[rows] / size[rows, None]
     own = _covariance(program, situation, names, len(rows) // len(names), stride)
-    v = own[np.ix_(rows, rows)] / np.outer(size[rows], size[rows]) + _FLOOR**2 * np.eye(len(s))
+    s = _white(own[np.ix_(rows, rows)] / np.outer(size[rows], size[rows]), s)
     spread = np.array([f.tolerance * abs(f.nominal or 0.0) for f in known]) / np.sqrt(3)
-    changes = [_apart(a, s, v, np.delete(s * spread, a, axis=1)) for a in range(len(known))]
+    changes = [_apart(a, s, np.delete(s * spread, a, axis=1)) for a in range(len(known))]
     return Separation(
         tuple(f.path for f in known),
         tuple(
@@ -100,10 +100,21 @@ def separation(
     )
 
 
-def _apart(a: int, s: Array, v: Array, others: Array) -> Array:
-    """1/||(1 - P_b) s_a|| for each b, infinite where b leaves nothing."""
-    root = cholesky(v + others @ others.T, lower=True)
-    white = solve_triangular(root, s, lower=True)
+def _white(v: Array, s: Array) -> Array:
+    """V^-1/2 s. A covariance is known to its rounding only: no noise is less than that."""
+    variances, axes = np.linalg.eigh(v)
+    floor = max(_FLOOR**2, len(v) * np.finfo(float).eps * variances[-1])
+    return np.asarray((axes.T @ s) / np.sqrt(np.maximum(variances, floor))[:, None])
+
+
+def _apart(a: int, s: Array, others: Array) -> Array:
+    """1/||(1 - P_b) s_a|| for each b, infinite where b leaves nothing.
+
+    In noise of variance one and what the `others` add: (1 + O O')^-1/2 s, by the singular values
+    of O.
+    """
+    axes, sizes, _ = np.linalg.svd(others, full_matrices=False)
+    white = s - axes @ ((1.0 - 1.0 / np.sqrt(1.0 + sizes**2))[:, None] * (axes.T @ s))
     along = white.T @ white[:, a] / np.sum(white**2, axis=0)
     left = np.linalg.norm(white[:, [a]] - white * along, axis=0)
     told = left > _PARALLEL * np.linalg.norm(white[:, a])

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 
 import bondgraph
+from bondgraph.cli.main import main
 from bondgraph.ir.program import Program
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.batch import Lanes
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.separation import Separation, separation
+from bondgraph.runtime.separation import Separation, _apart, _white, separation
 from bondgraph.runtime.smallest import Situation, noise
 
 _MODELS = Path(__file__).resolve().parents[3] / "models"
@@ -187,3 +188,19 @@ def test_a_residual_without_a_value_tells_nothing() -> None:
     found = separation(program, {}, Situation(at={"i": 2.0}, noise={"T": 0.01, "i": 0.01}))
     assert set(found.faults) == {"R", "U", "i"}
     assert len(found.groups) == 1
+
+
+def test_noise_that_is_the_same_at_all_moments() -> None:
+    """An offset of one sensor, a row of ten equal numbers: nothing is left of one that it fits."""
+    v = np.ones((10, 10))
+    s = np.column_stack([np.ones(10), np.arange(10.0)])
+    white = _white(v, s)
+    assert white[:, 0] @ white[:, 0] == pytest.approx(1.0)  # 1' V^-1 1, as of one sample
+    assert np.linalg.norm(white[:, 1]) > 1e6
+    assert np.isfinite(_apart(1, white, np.zeros((10, 0)))[0])
+
+
+def test_a_converter_whose_covariance_is_singular(tmp_path: Path) -> None:
+    """64 moments of a residual that two signals and their slopes make have less than 64 noises."""
+    model = _MODELS.parent / "tests" / "adversary" / "models" / "boost_duty.bg"
+    assert main(["report", str(model), "-o", str(tmp_path / "report.html")]) == 0
