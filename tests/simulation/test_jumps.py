@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import bondgraph
+from bondgraph import Scenario, SimulationError
 from tests.simulation.machines import near, run
 
 
@@ -149,3 +152,10 @@ def test_a_jump_at_a_sample_shows_there_and_not_before() -> None:
     assert told.tolist() == [0, 0, 0, *[1] * 8]
     # the fault is there from 0.1 to 0.4 and from 0.7 on
     assert np.allclose(read, [0, 0, 0, 1, 0.5, 0.5, 0.5, 1, 1, 1, 0.5])
+
+
+def test_a_jump_on_whose_way_a_loop_has_no_solution(root: Path) -> None:
+    """x12 is told to begin with 0.5 where the other storage on its junction is empty."""
+    c = bondgraph.compile(root / "tests" / "random" / "once" / "root_of_what_cancels.bg")
+    with pytest.raises(SimulationError, match=r"at 0 s: what `x12.p` holds has to change at once"):
+        c.simulate(Scenario("jump", duration=0.1))

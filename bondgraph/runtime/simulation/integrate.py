@@ -82,7 +82,7 @@ class Integrator:
         ends = np.clip([*wanted, b], a, b)
         at = np.unique(ends)
         for method in dict.fromkeys((self.method, "Radau")):
-            tried = _Tried(machine, inputs, (a, b), self.tell, native)
+            tried = _Tried(machine, inputs, (a, b), x, self.tell, native)
             found = self._solved(method, tried, x, at)
             if found is not None:
                 return np.asarray(found[np.searchsorted(at, ends)])
@@ -193,13 +193,13 @@ class _Tried:
         machine: Machine,
         inputs: Inputs,
         span: tuple[float, float],
+        start: Array,
         tell: Callable[[float], None],
         native: NativeMachine | None,
     ) -> None:
         self.machine, self.inputs, self.span, self.tell = machine, inputs, span, tell
         self.calls = 0
-        self.t = 0.0
-        self.x: list[float] = []
+        self.t, self.x = span[0], start.tolist()
         self.failed = False
         self._in_vain = 0
         self._native = native

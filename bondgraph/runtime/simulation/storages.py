@@ -11,6 +11,7 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.scenario import Scenario
+from bondgraph.text.numerals import listed
 
 _GOOD = 1e-7  # of the terms of a rate: what may be left of it
 _ROUNDING = 1e-9  # of what a storage holds
@@ -98,7 +99,8 @@ def handed_over(machine: Machine, t: float, u: Sequence[float], held: Mapping[st
     have to change at once: a clutch that closes, a source that jumps across two capacitors in
     series. Its balance then has an impulse in it, and so have those of all that it moves with:
     what it loses is given to the machine from outside within no time, which keeps momentum and
-    charge (Karnopp, Margolis and Rosenberg, System Dynamics, on inelastic impacts).
+    charge (Karnopp, Margolis and Rosenberg, System Dynamics, on inelastic impacts). Raises
+    `SimulationError` where a law has no value on the way.
     """
     x = np.array([held.get(name, 0.0) for name in machine.states])
     impulses = machine.equations.dependent
@@ -121,6 +123,12 @@ def handed_over(machine: Machine, t: float, u: Sequence[float], held: Mapping[st
         k3 = moved(x + k2 / (2 * _STEPS))
         k4 = moved(x + k3 / _STEPS)
         x = x + (k1 + 2 * k2 + 2 * k3 + k4) / (6 * _STEPS)
+    if not np.isfinite(x).all():
+        names = listed([f"`{i.name}`" for i, own in zip(impulses, jumps, strict=True) if own])
+        raise SimulationError(
+            f"the run ends at {t:.6g} s: what {names} holds has to change at once there, to agree"
+            " with the other storages, and on the way a law or loop has no value"
+        )
     return x
 
 
