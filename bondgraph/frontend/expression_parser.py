@@ -152,6 +152,12 @@ class Expressions(Cursor):
             if word == "true" or word == "false":
                 self.i = at + 1
                 return syntax.Truth(word == "true", self.span(at))
+            if word == "if" and not self.fresh[at]:
+                from bondgraph.frontend.habits import choice  # only for a message
+
+                after = self.words[at + 1]
+                if after[:1].isalnum() or after == "-":  # `if` may be the name of a value
+                    raise self.unexpected("a value", choice(self, at) or _OPERAND_HELP)
             if word in RESERVED:
                 raise self.unexpected(
                     "a value",
@@ -223,16 +229,12 @@ class Expressions(Cursor):
                 at,
             )
         here = say(self.words[at])
-        help = f"Close the bracket with `{bracket}`, or check what stands before {here}."
-        if self.after_number(at):
-            help = "A product needs its sign: write `*` between the factors."
-        raise self.unexpected(wanted, help, Label(self.word_span(opening), "opened here"))
+        from bondgraph.frontend.habits import choice, factor  # only for a message
 
-    def after_number(self, at: int) -> bool:
-        """Whether a factor follows a number without an operator."""
-        units = self.notes.units
-        after = self.words[at - 1][:1].isdigit() or (bool(units) and units[-1][1] == at)
-        return after and (self.words[at][:1].isalnum() or self.words[at] == "(")
+        help = choice(self, at) or factor(self, at) or (
+            f"Close the bracket with `{bracket}`, or check what stands before {here}."
+        )
+        raise self.unexpected(wanted, help, Label(self.word_span(opening), "opened here"))
 
     def ref(self) -> syntax.Ref:
         """A dotted reference, `m[1].el.Re`."""

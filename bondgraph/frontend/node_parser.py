@@ -62,10 +62,15 @@ class Nodes(Declarations):
         odd = self.odd_word(at)
         if odd is not None:
             raise odd
-        help = "End the statement with a line end or `;`."
-        if word == "," or word == "=":
+        from bondgraph.frontend.habits import choice, factor, several  # only for a message
+
+        help: str | Remedy = "End the statement with a line end or `;`."
+        meant = several(self, at) or choice(self, at) or factor(self, at)
+        if meant is not None:
+            help = meant
+        elif word == "," or word == "=":
             help = "Equations and statements are separated by a line end or `;`."
-        elif word == "(" or self.after_number(at):
+        elif word == "(":
             help = "End the statement with a line end or `;`; a product needs its sign `*`."
         elif (word, self.words[at + 1]) in (("-", ">"), ("<", "-")):
             help = "An arrow is written without a space: `->` or `<-`."

@@ -34,7 +34,7 @@ _INSTEAD: Final = {
     "\u200b": "nothing: it is an invisible space", "\u2009": "a plain space",
     "\u202f": "a plain space", "//": "`#` for a comment", "/*": "`#` for a comment",
     "=>": "`->` for a bond, `>=` for a comparison", "-->": "`->`", "<--": "`<-`",
-    "\x0c": "a line end", "+/-": "`+-`", "+/−": "`+-`",
+    "?": "`if(condition, a, b)` to choose", "\x0c": "a line end", "+/-": "`+-`", "+/−": "`+-`",
 }  # fmt: skip
 _PLAIN: Final = frozenset('+-*/^<>=(){}[],;:.%"±')
 _GREEK: Final = dict(
@@ -131,7 +131,7 @@ def _character(found: str, at: int, start: int) -> Odd:
         at,
         "here",
         f"Write {instead}." if instead else "Remove it; in a comment, after `#`, it may stay.",
-        None if found == "'" else (start, start + len(found), new),
+        None if found in "'?" else (start, start + len(found), new),
     )
 
 

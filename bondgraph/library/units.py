@@ -217,6 +217,9 @@ def _respelt(name: str) -> str | None:
     typo = get_close_matches(name, list(_entries()), 1, 0.85)
     if typo:
         return typo[0]
+    word = get_close_matches(lower, list(_WORDS), 1, 0.85) if len(name) > 3 else []
+    if word:
+        return _WORDS[word[0]]
     for length in range(len(name) - 1, 0, -1):  # Nm, As, kgm: two names without the dot
         if _atom(name[:length]):
             rest = name[length:]

@@ -17,6 +17,10 @@ _HELP = (
     "Sizes, indices and conditions of `if` are fixed when the model is built: use numbers, "
     "`for` variables and the structural arguments `(n : int)` of the model."
 )
+_WHILE_RUNNING = (
+    "What depends on signals is chosen while the machine runs: in a law with "
+    "`if(condition, a, b)`, or by a switched junction, `1:name when condition { ... }`."
+)
 
 
 def structural(
@@ -121,6 +125,9 @@ def _name(ref: Ref, scope: Scope, env: Env, report: Report) -> Fraction | bool:
     if part.name in scope.values:
         fail(report, "not-structural", f"`{ref.origin.text}` is not known when the model is built.",
              ref.origin, help=_HELP)  # fmt: skip
+    if part.name in scope.nodes:
+        fail(report, "not-structural", f"`{ref.origin.text}` is not known when the model is built.",
+             ref.origin, help=_WHILE_RUNNING)  # fmt: skip
     fail(report, "unknown-name", f"There is no structural argument or `for` variable "
          f"`{ref.origin.text}`.", ref.origin,
          help=meant(part.name, known, _HELP, ref.origin))  # fmt: skip

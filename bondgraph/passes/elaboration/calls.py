@@ -37,6 +37,18 @@ def names() -> tuple[str, ...]:
     return tuple(sorted({*FUNCTIONS, *_ALIASES, *_OTHERS}))
 
 
+def form(name: str) -> str:
+    """How a function is called.
+
+    >>> form("sin"), form("atan2"), form("if")
+    ('sin(x)', 'atan2(x, y)', 'if(condition, a, b)')
+    """
+    special = {"if": "if(condition, a, b)", "table": 'table("file.csv", x)', "delay": "delay(x, T)"}
+    name_ = _ALIASES.get(name, name)
+    low, _ = _OTHERS.get(name_) or (len(FUNCTIONS[name_].slopes),) * 2
+    return special.get(name, f"{name}({', '.join('xy'[:low])})")
+
+
 class Calls(Expressions):
     """Converts expressions with calls of functions."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from abc import ABC, abstractmethod
 from fractions import Fraction
 from typing import NoReturn, assert_never
@@ -10,10 +11,11 @@ from bondgraph.ir.expr import Expr, Op, Pool
 from bondgraph.ir.nodes import constant
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
 from bondgraph.library.dimensions import Term
+from bondgraph.library.units import parse_unit
 from bondgraph.passes.elaboration.problems import Skip, fail, rough
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import Env, Scope, Typed
-from bondgraph.text.diagnostic import Report
+from bondgraph.text.diagnostic import Report, replacing
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -55,6 +57,10 @@ class Expressions(ABC):
         """The value of a reference."""
 
     @abstractmethod
+    def is_value(self, name: str, place: Place) -> bool:
+        """Whether something is called so that has a value here."""
+
+    @abstractmethod
     def call(self, call: Call, place: Place) -> Typed:
         """The value of a function."""
 
@@ -67,7 +73,7 @@ class Expressions(ABC):
                      expr.origin, help="Split it into several `let`s.")  # fmt: skip
             match expr:
                 case Number():
-                    return self.number(expr)
+                    return self.number(expr, place)
                 case Ref():
                     return self.reference(expr, place)
                 case Binary():
@@ -115,15 +121,25 @@ class Expressions(ABC):
         """A truth value known when the model is built."""
         return self.pool.one if value else self.pool.zero
 
-    def number(self, number: Number) -> tuple[Expr, Term]:
+    def number(self, number: Number, place: Place | None = None) -> tuple[Expr, Term]:
         """A literal in SI; without a unit it takes the one that its use requires."""
         if number.unit is None:
             return self.pool.num(self.held(number.value, number.origin)), (
                 self.quantities.dimensions.fresh(number.origin, f"`{number.text}`")
             )
+        if place is not None:
+            self.value_for_unit(number, number.unit, place)
         dimension, factor = self.quantities.unit(number.unit, number.origin)
         term = self.quantities.known(dimension, number.origin, "")
         return self.pool.num(self.held(number.value * factor, number.origin)), term
+
+    def value_for_unit(self, number: Number, unit: str, place: Place) -> None:
+        """Refuse `2 R` where R is a value, or a variable of the law, and no unit."""
+        if parse_unit(unit) is None and self.is_value(re.split("[./^]", unit)[0], place):
+            product = f"{number.text}*{unit}"
+            fail(self.report, "unknown-unit", f"`{unit}` is no unit.", number.origin,
+                 help=replacing(number.origin, product, f"A product needs its sign: `{product}`.")
+                 )  # fmt: skip
 
     # ------------------------------------------------------------------ operators
 

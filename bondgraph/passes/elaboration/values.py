@@ -20,7 +20,7 @@ from bondgraph.library.elements import SIGNALS
 from bondgraph.library.units import PI
 from bondgraph.passes.elaboration.bonds import FlatBond, sign
 from bondgraph.passes.elaboration.build_time import references
-from bondgraph.passes.elaboration.calls import Calls
+from bondgraph.passes.elaboration.calls import Calls, form, names
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.lookup import Lookup
 from bondgraph.passes.elaboration.problems import Skip, fail, listed
@@ -36,6 +36,7 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
 )
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Span
 
 _KINDS = {"param": Kind.PARAM, "const": Kind.CONST}
 
@@ -82,6 +83,10 @@ class Values(Calls):
         assert isinstance(entry, NodeEntry)
         return self.signal(entry, ref, (*rest, part))
 
+    def is_value(self, name: str, place: Place) -> bool:
+        """Whether a value of the model or a variable of the law is called so."""
+        return name in place.scope.values or name in (place.local or ())
+
     def named(self, ref: Ref, part: Part, inside: Scope, place: Place) -> Typed:
         """The value of a name of the value namespace of an instance."""
         entry = self.lookup.value(part, inside, place.scope, place.env)
@@ -100,8 +105,13 @@ class Values(Calls):
         if own and place.local is not None and part.name not in inside.nodes:
             fail(self.report, "wrong-variable", f"This element has no variable `{part.name}`.",
                  ref.origin, help=f"Its law relates {listed(place.local)}.")  # fmt: skip
+        alone = len(ref.parts) == 1 and part.first is None
+        if alone and part.name in names() and part.name not in inside.nodes:
+            fail(self.report, "not-a-value", f"`{part.name}` is a function, not a value.",
+                 ref.origin, help=f"Write what it is taken of in brackets: `{form(part.name)}`."
+                 )  # fmt: skip
         known = tuple(place.env) + tuple(inside.generics)
-        self.lookup.no_value(ref, part, inside, known)
+        self.lookup.no_value(ref, part, inside, known, tuple(place.local or ()))
 
     def signal(self, node: NodeEntry, ref: Ref, parts: tuple[Part, ...]) -> Typed:
         """`x.e`, `x.f`, `x.q`, `x.p`, `gear.f1`, `mic.el.q`."""
@@ -299,7 +309,10 @@ class Values(Calls):
         """The dimension that a declaration states, or an open one."""
         if declaration.unit is None:
             return self.quantities.dimensions.fresh(entry.origin, entry.local)
-        dimension, _ = self.quantities.unit(declaration.unit, declaration.origin)
+        origin, unit = declaration.origin, declaration.unit
+        start = origin.source.text.index(unit, declaration.name.origin.end)
+        place = Span(origin.source, start, start + len(unit))
+        dimension, _ = self.quantities.unit(unit, place)
         what = f"`{entry.local}` is declared in {declaration.unit}"
         return self.quantities.known(dimension, declaration.origin, what)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bondgraph import errors
+from bondgraph.passes.elaboration.unit_mends import changed
 from bondgraph.text.diagnostic import Diagnostic
 from tests.unit.frontend import corpus
 from tests.unit.frontend.trees import read
@@ -67,6 +68,24 @@ STATEMENTS = [
     ("nesting-too-deep", "let x = " + "-" * 99 + "@-1"),
     ("syntax-unexpected", "if a { R:x } else @b"),
     ("syntax-unexpected", "R:x\n    @else { R:y }"),
+    ("input-value", "input U @= 12 V"),
+    ("input-value", "input U[2] : V @= 12 V"),
+    ("input-value", "input on : bool @= true"),
+    ("syntax-unexpected", "param a = 1 Ohm@, b = 2 H, c = 3"),
+    ("syntax-unexpected", "param a@, b"),
+    ("syntax-unexpected", "sensor a = max(1, x.f)@, b = x.f"),
+    ("syntax-unexpected", "input x @y"),
+    ("syntax-unexpected", "R:x { e = R @f }"),
+    ("syntax-unexpected", "R:x { e = 2*(a + b) @(c + d) }"),
+    ("syntax-unexpected", "R:x { e = (a @b)/2 }"),
+    ("syntax-unexpected", "R:x { e = @if f > 0 then f else 2*f }"),
+    ("syntax-unexpected", "let x = if(f > 0) @then f else 2*f"),
+    ("syntax-unexpected", "let x = f @if f > 0 else 2*f"),
+    ("syntax-character", "let x = f > 0 @? f : 2*f"),
+    ("unknown-statement", "@output x = i.f"),
+    ("unknown-statement", "@state x = 1"),
+    ("unknown-statement", "@connect(a, b)"),
+    ("unknown-statement", "@resistor R = 3 Ohm"),
 ]
 FILES = [
     ("empty-file", "@"),
@@ -157,3 +176,34 @@ def test_every_wrong_statement_gets_one_error(body: str) -> None:
 def test_what_was_meant_is_proposed(line: str, remedy: str) -> None:
     _, said = read(f"bg 1\nmodel M {{\n{line}\n}}\n")
     assert remedy in str(said.diagnostics[0].help)
+
+
+@pytest.mark.parametrize(
+    ("line", "mended"),
+    [
+        ("input U = 12 V", ["input U : V", "param U = 12 V"]),
+        ("input U[2] : V = 2*E", ["param U[2] = 2*E"]),
+        ("param a = 1 Ohm, b = 2 H, c = 3", ["param a = 1 Ohm; param b = 2 H; param c = 3"]),
+        ("param a = 1 Ohm b = 2 H", ["param a = 1 Ohm; param b = 2 H"]),
+        ("param a = 1 Ohm param b = 2 H", ["param a = 1 Ohm; param b = 2 H"]),
+        ("param a, b", ["param a; param b"]),
+        ("let a = max(1, b), c = 2", ["let a = max(1, b); let c = 2"]),
+        ("input x, y : V", ["input x; input y : V"]),
+        ("input x y z", ["input x; input y; input z"]),
+        ("R:x { e = R f }", ["R:x { e = R*f }"]),
+        ("R:x { e = (R v.f)/2 }", ["R:x { e = (R*v.f)/2 }"]),
+        ("R:x { e = a[1] (b + c) }", []),
+        ("R:x { e = if f > 0 then R*f else 2*R*f }", ["R:x { e = if(f > 0, R*f, 2*R*f) }"]),
+        ("let x = if (f > 0) then 1 else (2 + y)", ["let x = if((f > 0), 1, (2 + y))"]),
+        ("let x = if f > 0 then 1 elseif f < 1 then 2 else 3", []),
+        ("output y = i.f", ["sensor y = i.f"]),
+        ("connect(a, b)", []),
+    ],
+)
+def test_changes_of_the_text(line: str, mended: list[str]) -> None:
+    """What is proposed as a change, made by hand."""
+    _, said = read(f"bg 1\nmodel M {{\n{line}\n}}\n")
+    (found,) = said.diagnostics
+    assert [changed(found.labels[0].span.source.text, e).split("\n")[2] for e in found.edits] == (
+        mended
+    )
