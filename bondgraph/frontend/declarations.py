@@ -168,12 +168,16 @@ class Declarations(Expressions):
             and whole.right.parts[0].name == "turn"
         ):
             return whole.left
+        help: str | Remedy = "Write `counts 24/turn`; a sum needs brackets, `counts (n + 1)/turn`."
+        if isinstance(whole, syntax.Number) and (whole.unit or "").endswith("/turn"):
+            right = f"{whole.text}/turn"
+            help = replacing(whole.origin, right, f"Write `counts {right}`, without a unit.")
         raise self.problem(
             "counts-per-turn",
             "The resolution of an encoder is a number of counts per turn.",
             at,
             "this resolution",
-            help="Write `counts 24/turn`; a sum needs brackets, `counts (n + 1)/turn`.",
+            help=help,
         )
 
     def _fault(self) -> syntax.Fault:

@@ -283,7 +283,7 @@ class Expressions(Cursor):
         if self.starts[at + 1] == end + 1 and self.source.text[end] == " ":
             after = self.words[at + 1]
             if after.isidentifier():
-                may_be = after not in NOT_UNITS
+                may_be = after not in NOT_UNITS or (after == "counts" and not self._counted(at + 2))
             else:
                 may_be = not after.isascii() or (after == "1" and self.words[at + 2] in (".", "/"))
             if may_be:
@@ -293,6 +293,11 @@ class Expressions(Cursor):
             if glued is not None:
                 raise glued
         return syntax.Number(value, unit, word, self.span(at))
+
+    def _counted(self, at: int) -> bool:
+        """Whether `counts` before word `at` begins the resolution of an encoder, and is no unit."""
+        word = self.words[at]
+        return (word[:1].isalnum() or word == "(") and not self.fresh[at]
 
     def _value(self, at: int) -> Fraction:
         word = self.words[at]
@@ -329,7 +334,7 @@ class Expressions(Cursor):
     def unit(self) -> str:
         """A unit that must be there, as after a colon."""
         word = self.words[self.i]
-        if word in NOT_UNITS or (self.fresh[self.i] and not self.brackets):
+        if (word in NOT_UNITS and word != "counts") or (self.fresh[self.i] and not self.brackets):
             unit = None
         else:
             unit = self._unit()

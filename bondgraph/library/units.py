@@ -40,6 +40,7 @@ mph m.s^-1 0.44704        |kmh m.s^-1 5/18          |kn m.s^-1 1852/3600 |gal m^
 lpm m^3.s^-1 1/60000      |gpm m^3.s^-1 0.003785411784/60         |cc m^3 1e-6
 % 1 1/100          |percent 1 1/100     |‰ 1 1/1000        |ppm 1 1e-6       |ppb 1 1e-9
 turn 1 2pi         |rev 1 2pi           |cycle 1 2pi       |rpm s^-1 pi/30   |rps s^-1 2pi
+count 1 1          |counts 1 1         |pulse 1 1         |pulses 1 1
 deg 1 pi/180       |° 1 pi/180          |arcmin 1 pi/10800 |arcsec 1 pi/648000 |gon 1 pi/200
 """
 _PREFIXES = {

@@ -56,6 +56,8 @@ class Laws:
         self.coefficients: list[Coefficient] = []
         #: Elements whose coefficient is written as a number other than zero.
         self.nameless: list[NodeEntry] = []
+        #: Passive one-ports with a linear law, and e/f, q/e or p/f of it.
+        self.linear_ones: list[tuple[NodeEntry, Expr]] = []
 
     def laws(self, node: NodeEntry) -> tuple[Law, ...]:
         """All laws of an element; raises Skip when they are wrong."""
@@ -184,6 +186,7 @@ class Laws:
                 Law(pool.sub(port.effort, pool.mul(k, other.flow)), None, origin),
                 Law(pool.sub(other.effort, pool.mul(k, port.flow)), None, origin),
             )
+        self.linear_ones.append((node, k))
         if element.kind == "R":
             self.values.alike(values.quotient(e, f), term, origin,
                               f"the resistance of `{node.local}` is effort over flow")  # fmt: skip
@@ -253,6 +256,7 @@ class Laws:
         for one in read:
             self.one_unit(node, one)
         found = [one.law for one in read]
+        self.note_linear(node, element, found)
         if len(found) != len(node.ports):
             ports = len(node.ports)
             need = "one equation" if ports == 1 else f"{ports} equations, one a port"
@@ -299,6 +303,25 @@ class Laws:
         if read.sides is not None:
             what = f"both sides of the law of `{node.local}` have one unit"
             self.values.alike(*read.sides, read.law.origin, what)
+
+    def note_linear(self, node: NodeEntry, element: ElementKind, found: list[Law]) -> None:
+        """Note the coefficient of a law in braces that is linear with constants."""
+        port = node.ports[0]
+        if len(node.ports) != 1 or len(found) != 1 or element.kind not in ("R", "C", "I"):
+            return
+        cause, effect = {
+            "R": (port.effort, port.flow), "C": (port.state, port.effort),
+            "I": (port.state, port.flow),
+        }[element.kind]  # fmt: skip
+        own = symbols(found[0].zero)
+        if cause is None or not {cause, effect} <= {*own}:
+            return
+        parts = linear(self.pool, found[0].zero, (cause, effect))
+        if parts is None or parts[0] is self.pool.zero:
+            return
+        coefficient = self.pool.neg(self.pool.div(parts[1], parts[0]))
+        if self.values.constant(coefficient):
+            self.linear_ones.append((node, coefficient))
 
     def hold(self, node: NodeEntry, laws: tuple[Law, ...]) -> None:
         """Refuse a law that a variable of its own element drops out of: e = e*f says e = 0 too."""
