@@ -151,6 +151,32 @@ def factor(cursor: Cursor, at: int) -> Remedy | None:
     return replacing(gap, "*", f"A product needs its sign: write {shown}.")
 
 
+def decimal(cursor: Cursor, at: int) -> Remedy | None:
+    """That a number has a point, where a comma stands between two digits."""
+    text, start = cursor.source.text, cursor.starts[at]
+    if cursor.words[at] != "," or not (text[start - 1] + text[start + 1 : start + 2]).isdigit():
+        return None
+    point = f"{cursor.words[at - 1]}.{cursor.words[at + 1]}"
+    return replacing(cursor.word_span(at), ".", f"A number has a point: `{point}`.")
+
+
+def arrow(cursor: Cursor, at: int) -> Remedy | None:
+    """That a bond is an arrow, where another sign stands between two nodes."""
+    words, begin = cursor.words, _begin(cursor, at)
+    if words[at] not in ("-", ">", "<", "=", "~") or "=" in words[begin:at]:
+        return None
+    end = at
+    while words[end + 1] in ("-", ">", "=") and not cursor.fresh[end + 1]:
+        end += 1
+    node = words[end + 1].isidentifier() or words[end + 2] == ":"
+    if not node or cursor.fresh[end + 1] or words[begin] in _SINGLE:
+        return None
+    back = words[at] == "<"
+    place = Span(cursor.source, cursor.starts[at], cursor.starts[end] + 1)
+    return replacing(place, "<-" if back else "->", "A bond is an arrow, without a space in it: "
+                     "`->` or `<-`.")  # fmt: skip
+
+
 def choice(cursor: Cursor, at: int) -> str | Remedy | None:
     """How an expression chooses, where word `at` is of `if ... then ... else`."""
     words = cursor.words

@@ -62,18 +62,19 @@ class Nodes(Declarations):
         odd = self.odd_word(at)
         if odd is not None:
             raise odd
-        from bondgraph.frontend.habits import choice, factor, several  # only for a message
+        from bondgraph.frontend.habits import arrow, choice, decimal, factor, several
 
         help: str | Remedy = "End the statement with a line end or `;`."
-        meant = several(self, at) or choice(self, at) or factor(self, at)
+        meant = (
+            several(self, at) or choice(self, at) or factor(self, at) or decimal(self, at)
+            or arrow(self, at)
+        )  # fmt: skip
         if meant is not None:
             help = meant
         elif word == "," or word == "=":
             help = "Equations and statements are separated by a line end or `;`."
         elif word == "(":
             help = "End the statement with a line end or `;`; a product needs its sign `*`."
-        elif (word, self.words[at + 1]) in (("-", ">"), ("<", "-")):
-            help = "An arrow is written without a space: `->` or `<-`."
         elif word == ".":
             help = (
                 "A node is declared by its name alone: write it in a statement of its own, "

@@ -105,7 +105,7 @@ def _odd_sign(text: str, words: list[str], starts: list[int], at: int) -> Odd | 
         for length in (3, 2):
             found = text[there : there + length]
             if there >= 0 and there + length > start and found in _INSTEAD:
-                return _character(found, at, there)
+                return _character(text, found, at, there)
     if word == "+-":
         return Odd(
             "tolerance-misplaced",
@@ -115,10 +115,18 @@ def _odd_sign(text: str, words: list[str], starts: list[int], at: int) -> Odd | 
         )  # fmt: skip
     if len(word) > 1 or word.isalnum() or word in _PLAIN or word == "_":
         return None
-    return _character(word, at, start)
+    return _character(text, word, at, start)
 
 
-def _character(found: str, at: int, start: int) -> Odd:
+def _character(text: str, found: str, at: int, start: int) -> Odd:
+    own = re.search(r"(?:[a-zA-Z][\w.\[\]]*|\))\Z", text[max(0, start - 40) : start])
+    if found == "'" and own is not None:
+        place = (start - len(own[0]), start + 1, f"der({own[0]})")
+        return Odd(
+            "syntax-character", "The language has no `'`.", at, "here",
+            f"Write `der({'...' if own[0] == ')' else own[0]})` for a derivative in time.",
+            None if own[0] == ")" else place,
+        )  # fmt: skip
     shown = say(found) if found.isprintable() and found.strip() else f"U+{ord(found[0]):04X}"
     instead = _INSTEAD.get(found)
     plain = re.match("`([^`]+)`", instead or "")

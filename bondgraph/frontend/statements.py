@@ -184,8 +184,10 @@ class Statements(Nodes):
             if not inside and is_arrow(words[self.i]):
                 raise self._no_start(self.i)
             if not self.fresh[self.i] and words[self.i] not in (";", "}"):
+                from bondgraph.frontend.habits import arrow  # only for a message
+
                 raise self.misspelt(at, sorted(KEYWORDS)) or self.unexpected(
-                    "an arrow or `{`", _alone(words[at])
+                    "an arrow or `{`", arrow(self, self.i) or _alone(words[at])
                 )
             raise self.problem(
                 "name-alone",

@@ -61,6 +61,10 @@ class Expressions(ABC):
         """Whether something is called so that has a value here."""
 
     @abstractmethod
+    def no_mode(self, ref: Ref, place: Place) -> None:
+        """Report an input that is used as a condition and not declared as one."""
+
+    @abstractmethod
     def call(self, call: Call, place: Place) -> Typed:
         """The value of a function."""
 
@@ -106,6 +110,8 @@ class Expressions(ABC):
         """An expression that must be true or false."""
         node, term = self.convert(expr, place)
         if term is not None:
+            if isinstance(expr, Ref):
+                self.no_mode(expr, place)
             fail(self.report, "not-a-condition", f"`{expr.origin.text}` is a number: a condition "
                  "is needed here.", expr.origin, help="Compare it with something, as in `x > 0`, "
                  "or use an `input ... : bool`.")  # fmt: skip

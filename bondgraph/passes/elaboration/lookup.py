@@ -8,7 +8,7 @@ from typing import NoReturn
 from bondgraph.ir.syntax import Part, Ref
 from bondgraph.library.units import suggest_unit
 from bondgraph.passes.elaboration.build_time import index
-from bondgraph.passes.elaboration.problems import Skip, fail, listed, meant
+from bondgraph.passes.elaboration.problems import Skip, fail, listed, meant, written
 from bondgraph.passes.elaboration.scope import (
     Array,
     Env,
@@ -97,6 +97,13 @@ class Lookup:
                  Label(part.origin, "used as a node"), Label(value.origin, "declared here"),
                  help="Bonds go between junctions, elements, submodels and ports; declare a node "
                  f"with its type, as in `R:{part.name}`.")  # fmt: skip
+        parts = [
+            n for n, e in inside.nodes.items() if isinstance(e, Scope) and e.model.name == part.name
+        ]
+        if parts:
+            fail(self.report, "not-a-node", f"`{part.name}` is a model, not a part of "
+                 f"`{inside.model.name}`.", part.origin, help=written(part.origin, part.name,
+                 parts[0]))  # fmt: skip
         fail(self.report, "unknown-name", f"`{inside.model.name}` has no node `{part.name}`.",
              part.origin, help=meant(part.name, inside.nodes, "Declare it with its type, as in "
              f"`1:{part.name}` or `R:{part.name}`.", part.origin))  # fmt: skip
@@ -164,8 +171,11 @@ class Lookup:
                 fail(self.report, "unknown-name", what, part.origin,
                      help=replacing(part.origin, usual, words))  # fmt: skip
         otherwise = f"Declare it, as in `param {name} = 1` or `let {name} = ...`."
+        source, end = part.origin.source, part.origin.end
         if name in ("t", "time"):
             otherwise = _TIME
+        elif name == "d" and source.text[end:].lstrip().startswith("/"):
+            otherwise = "A derivative in time is `der(x)`."
         elif own:
             otherwise += f" The law itself relates {listed(own)}."
         fail(self.report, "unknown-name", what, part.origin,

@@ -93,6 +93,9 @@ class Outside(Calls):
         """Whether a parameter of the model is called so."""
         return name in self.values
 
+    def no_mode(self, ref: Ref, place: Place) -> None:
+        """There are no inputs here."""
+
     def reference(self, ref: Ref, place: Place) -> Typed:
         """The time, pi, or a parameter by its path."""
         name = ref.origin.text.replace(" ", "")

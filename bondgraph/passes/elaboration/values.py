@@ -35,7 +35,7 @@ from bondgraph.passes.elaboration.scope import (
     Typed,
     ValueEntry,
 )
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Label, Report, replacing
 from bondgraph.text.source import Span
 
 _KINDS = {"param": Kind.PARAM, "const": Kind.CONST}
@@ -86,6 +86,18 @@ class Values(Calls):
     def is_value(self, name: str, place: Place) -> bool:
         """Whether a value of the model or a variable of the law is called so."""
         return name in place.scope.values or name in (place.local or ())
+
+    def no_mode(self, ref: Ref, place: Place) -> None:
+        """Report an input that is used as a condition and not declared as one, once."""
+        entry = place.scope.values.get(ref.parts[0].name)
+        if len(ref.parts) > 1 or not isinstance(entry, ValueEntry):
+            return
+        declaration = entry.declaration
+        if isinstance(declaration, Input) and declaration.unit is None:
+            end = Span(entry.origin.source, entry.origin.end, entry.origin.end)
+            fail(self.report, "not-a-condition", f"The input `{entry.local}` is a number, and a "
+                 "condition where it is used.", entry.origin, help=replacing(end, " : bool",
+                 f"Declare it so: `input {entry.local} : bool`."))  # fmt: skip
 
     def named(self, ref: Ref, part: Part, inside: Scope, place: Place) -> Typed:
         """The value of a name of the value namespace of an instance."""
