@@ -140,12 +140,21 @@ class Expressions(ABC):
         return self.pool.num(self.held(number.value * factor, number.origin)), term
 
     def value_for_unit(self, number: Number, unit: str, place: Place) -> None:
-        """Refuse `2 R` where R is a value, or a variable of the law, and no unit."""
-        if parse_unit(unit) is None and self.is_value(re.split("[./^]", unit)[0], place):
-            product = f"{number.text}*{unit}"
-            fail(self.report, "unknown-unit", f"`{unit}` is no unit.", number.origin,
-                 help=replacing(number.origin, product, f"A product needs its sign: `{product}`.")
-                 )  # fmt: skip
+        """Refuse `2 R` and `3 J/K/n` where R and n are values, or variables of the law."""
+        if parse_unit(unit) is not None:
+            return
+        parts = re.split("([./])", unit)
+        names = [self.is_value(part.partition("^")[0], place) for part in parts]
+        if not any(names):
+            return
+        at = names.index(True)
+        own, rest = "".join(parts[: max(at - 1, 0)]), "".join(parts[at:])
+        sign = "/" if at and parts[at - 1] == "/" else "*"
+        left = f"({number.text} {own})" if own else number.text
+        meant = f"{left}{sign}{rest}"
+        fail(self.report, "unknown-unit", f"`{unit}` is no unit.", number.origin,
+             help=replacing(number.origin, meant, f"`{parts[at]}` is a value, and no part of a "
+             f"unit: write `{meant}`."))  # fmt: skip
 
     # ------------------------------------------------------------------ operators
 

@@ -85,7 +85,9 @@ class Values(Calls):
 
     def is_value(self, name: str, place: Place) -> bool:
         """Whether a value of the model or a variable of the law is called so."""
-        return name in place.scope.values or name in (place.local or ())
+        scope = place.scope
+        known = name in scope.values or name in scope.generics or name in place.env
+        return known or name in (place.local or ())
 
     def no_mode(self, ref: Ref, place: Place) -> None:
         """Report an input that is used as a condition and not declared as one, once."""
@@ -334,7 +336,8 @@ class Values(Calls):
         if declaration.unit is None and declaration.value is None:
             raise Skip
         if declaration.unit is None and isinstance(declaration.value, Number):
-            return symbol, self.number(declaration.value)[1]
+            place = Place(entry.scope, entry.env, entry.path)
+            return symbol, self.number(declaration.value, place)[1]
         if declaration.value is None and entry.scope.parent is not None:
             scope = entry.scope
             fail(self.report, "missing-argument", f"`{scope.model.name}` needs a value of "
@@ -373,7 +376,7 @@ class Values(Calls):
             if declaration.unit is not None:
                 own = self.declared(entry, declaration)
             elif isinstance(declaration, Param) and isinstance(declaration.value, Number):
-                own = self.number(declaration.value)[1]
+                own = self.number(declaration.value, Place(entry.scope, entry.env, ""))[1]
             if own is not None:
                 self.alike(own, term, given.origin, f"`{entry.local}` has the unit it is declared "
                            "with")  # fmt: skip

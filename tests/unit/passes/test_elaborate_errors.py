@@ -76,6 +76,7 @@ ONE = [
     ("param a = 2; param b = a^1000; param c = b^1000; param d = c^1000", "undefined-value"),
     ("let a = tan(1, 2)", "wrong-arguments"),
     ("let a = sine(y)", "unknown-function"),
+    ("param k = 2; j -> R:a = 3 V/k", "unknown-unit"),
     ("let a = integral(y)", "unknown-function"),
     ("let a = d/dt(y)", "unknown-name"),
     ("let a = exp*y", "not-a-value"),
