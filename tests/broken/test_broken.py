@@ -56,7 +56,8 @@ MENDED = {
     "if_then_in_a_law", "input_with_a_value", "junction_declared_with_each_bond",
     "junction_switched_after_its_bond",
     "product_with_a_number_without_sign", "product_without_sign", "several_params_in_a_line",
-    "transformer_turned_round", "unit_divided_by_a_value", "two_port_declared_on_both_sides", "values_by_indices",
+    "transformer_turned_round", "two_port_declared_on_both_sides", "unit_divided_by_a_value",
+    "values_by_indices",
 }  # fmt: skip
 
 
