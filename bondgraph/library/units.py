@@ -85,6 +85,11 @@ _WORDS = {
     "nms": "N.m.s",
 }  # fmt: skip
 
+_PREFIX_WORDS = {
+    "nano": "n", "pico": "p", "micro": "u", "milli": "m", "centi": "c", "deci": "d", "hecto": "h",
+    "kilo": "k", "mega": "M", "giga": "G",
+}  # fmt: skip
+
 _described: dict[Dimension, str] = {}
 _written = iter(_WRITTEN.split())
 _Entry = tuple[Dimension, Fraction]
@@ -218,6 +223,9 @@ def _respelt(name: str) -> str | None:
     typo = get_close_matches(name, list(_entries()), 1, 0.85)
     if typo:
         return typo[0]
+    prefixed = _with_prefix(name)
+    if prefixed:
+        return prefixed
     word = get_close_matches(lower, list(_WORDS), 1, 0.85) if len(name) > 3 else []
     if word:
         return _WORDS[word[0]]
@@ -229,6 +237,23 @@ def _respelt(name: str) -> str | None:
                 return f"{name[:length]}.{second}"
     close = get_close_matches(name, list(_entries()), 1, 0.75)
     return close[0] if close and len(name) > 2 else None
+
+
+def _with_prefix(name: str) -> str | None:
+    """A unit whose prefix or whose name is a word, `mHenry` or `microF`; never without its prefix.
+
+    >>> _with_prefix("mHenry"), _with_prefix("microF"), _with_prefix("kilonewtons")
+    ('mH', 'uF', 'kN')
+    """
+    found = [(p, s) for p, s in _PREFIX_WORDS.items() if name.lower().startswith(p)]
+    found += [(p, p) for p in _PREFIXES if name.startswith(p)]
+    for prefix, symbol in found:
+        rest = name[len(prefix) :]
+        known = _WORDS.get(rest.lower()) or _WORDS.get(rest.lower().removesuffix("s"))
+        for unit in (symbol + rest, symbol + (known or "")):
+            if unit != symbol and _atom(unit):
+                return unit
+    return None
 
 
 def _compose(dimension: Dimension) -> str:

@@ -6,12 +6,13 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 
 from bondgraph.ir.expr import Expr, Op, symbols
+from bondgraph.ir.syntax import Number, Param, Ref
 from bondgraph.ir.unit import Dimension, times
-from bondgraph.library.units import DOMAINS, describe
+from bondgraph.library.units import DOMAINS, describe, parse_unit, scale
 from bondgraph.passes.elaboration.problems import rough
 from bondgraph.passes.elaboration.quantities import Quantities
 from bondgraph.passes.elaboration.records import Tolerated
-from bondgraph.passes.elaboration.scope import NodeEntry
+from bondgraph.passes.elaboration.scope import NodeEntry, ValueEntry
 from bondgraph.text.diagnostic import Label, Report, replacing
 from bondgraph.text.source import Span
 
@@ -90,6 +91,44 @@ def report_sources(
                                f"A source of {meant} is `{node.type.replace(element.kind, other)}:"
                                f"{node.local}`."),
             )  # fmt: skip
+
+
+def report_temperatures(nodes: Iterable[NodeEntry], report: Report) -> None:
+    """Note a source of effort on a scale with its own zero, where a unit is of differences."""
+    kelvin = parse_unit("K")
+    assert kelvin is not None
+    for node in nodes:
+        number = _written(node)
+        unit = parse_unit(number.unit) if number is not None and number.unit else None
+        if number is None or unit is None or unit.dimension != kelvin.dimension:
+            continue
+        factor, zero = scale(unit, kelvin)
+        if zero:
+            text, difference = number.origin.text, float(number.value * factor)
+            absolute = f"{float(number.value * factor + zero):g} K"
+            report.info(
+                "temperature-scale", f"`{text}` is a difference of temperatures, {difference:g} K.",
+                number.origin, help=replacing(number.origin, absolute,
+                f"If the temperature is meant, and not how far it is from another one, write "
+                f"`{absolute}`."),
+            )  # fmt: skip
+
+
+def _written(node: NodeEntry) -> Number | None:
+    """The number that a source of effort is given, itself or as a param."""
+    if node.element is None or node.element.kind != "Se" or node.declaration is None:
+        return None
+    value = node.declaration.value
+    if isinstance(value, Number):
+        return value
+    name = node.name
+    if value is not None:
+        if not isinstance(value, Ref) or len(value.parts) != 1:
+            return None
+        name = value.parts[0].name
+    entry = node.scope.values.get(name)
+    own = entry.declaration if isinstance(entry, ValueEntry) and entry.given is None else None
+    return own.value if isinstance(own, Param) and isinstance(own.value, Number) else None
 
 
 def _power() -> Dimension:

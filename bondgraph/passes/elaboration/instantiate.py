@@ -158,7 +158,10 @@ class Arguments:
             else:
                 ports = [(f"{p.name}." if p.name else "", p.stores) for p in entry.ports]
                 names = [f"`{before}{stores}0`" for before, stores in ports if stores]
-                help = f"It takes {' or '.join(names)}, its initial state."
+                kinds = {stores for _, stores in ports if stores}
+                what = {"q": "displacement or charge", "p": "momentum or flux"}
+                own = f": its {what[kinds.pop()]}" if len(kinds) == 1 else ""
+                help = f"It takes {' or '.join(names)}, its initial state{own}."
                 message = f"`{entry.type}:{entry.name}` takes no argument `{text}`."
             self.report.error("unknown-argument", message, given.argument.origin, help=help)
 

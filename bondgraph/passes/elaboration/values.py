@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool
@@ -259,10 +260,18 @@ class Values(Calls):
         for entry in entries:
             entry.wrong = True
         names = " needs ".join(f"`{e.local}`" for e in (*entries, entries[0]))
+        help = "Break the circle: an algebraic loop belongs into a law or a junction."
+        if any(re.search(r"\bint\s*\(", e.declaration.origin.text) for e in entries):
+            name = entries[0].local
+            help = (
+                "A signal whose rate depends on itself is a state, and a storage has states: "
+                f"`Sf:rate = ... -> 0:n` with its rate and `n -> C:{name} = 1`; `n.e` is what was "
+                f"meant by `{name}`."
+            )
         self.report.error(
             "circular-definition", f"These names are defined by each other: {names}.",
             *[Label(e.given.origin if e.given else e.origin) for e in entries[:4]],
-            help="Break the circle: an algebraic loop belongs into a law or a junction.",
+            help=help,
         )  # fmt: skip
 
     def needs(self, entry: ValueEntry) -> Iterator[ValueEntry]:

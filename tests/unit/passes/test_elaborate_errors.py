@@ -78,6 +78,7 @@ ONE = [
     ("let a = sine(y)", "unknown-function"),
     ("param k = 2; j -> R:a = 3 V/k", "unknown-unit"),
     ("let a = integral(y)", "unknown-function"),
+    ("let a = int(y - a)", "circular-definition"),
     ("let a = d/dt(y)", "unknown-name"),
     ("let a = exp*y", "not-a-value"),
     ("input s; j -> 0:n; n -> R:a = 1; 1:k when s { <- n; -> R:b = 1 }", "not-a-condition"),

@@ -6,7 +6,7 @@ import pytest
 
 from bondgraph.pipeline import compile as open_model
 
-OURS = {"negative-coefficient", "wide-tolerance", "source-kind"}
+OURS = {"negative-coefficient", "wide-tolerance", "source-kind", "temperature-scale"}
 CIRCUIT = "Se:U -> 1:i; i -> R:r = 1 Ohm; i -> I:l = 1 mH; i -> Df:y; "
 
 
@@ -84,3 +84,19 @@ SOURCES = {
 @pytest.mark.parametrize("body", SOURCES)
 def test_a_source_of_the_other_kind(body: str) -> None:
     assert codes(body) == [("source-kind", "warning")] * SOURCES[body]
+
+
+ROOM = "Sf:P -> 0:n; n -> C:c = 100 J/K; n -> 1:l; l -> R:r = 2 K/W; n -> De:y; "
+TEMPERATURES = {
+    "l -> Se:T = 20 degC": True,
+    "param T = 68 degF; l -> Se:T": True,
+    "const T0 = 20 °C; l -> Se:T = T0": True,
+    "param T = 293 K; l -> Se:T": False,
+    "input T : degC; l -> Se:T": False,  # what a log says has its own unit
+    "param d = 3 degC; input T : K; l -> Se:T2 = T + d": False,
+}
+
+
+@pytest.mark.parametrize("body", TEMPERATURES)
+def test_a_temperature_on_a_scale_with_its_own_zero(body: str) -> None:
+    assert codes(ROOM + body) == [("temperature-scale", "info")] * TEMPERATURES[body]
