@@ -105,6 +105,10 @@ class Declarations(Expressions):
         if self.words[self.i] == ":" and not self.fresh[self.i]:
             self._colon("")
             boolean = self.keyword("bool")
+            word = self.words[self.i]
+            if not boolean and word.lower() in ("boolean", "bool", "logical"):
+                help = replacing(self.word_span(self.i), "bool", "A mode is an `input ... : bool`.")
+                raise self.unexpected("`bool` or a unit", help)
             if not boolean:
                 unit = self.unit()
         unknown = self.keyword("unknown")

@@ -7,6 +7,7 @@ from typing import Final
 
 from bondgraph.frontend.cursor import Cursor
 from bondgraph.frontend.words import NOT_UNITS, is_arrow, say
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.text.diagnostic import Edit, Remedy, replacing
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
@@ -111,7 +112,7 @@ def several(cursor: Cursor, at: int) -> Remedy | None:
             changes.append((Span(cursor.source, before.start, end), f"; {keyword} "))
         at += 1
     edit = Edit("make a statement of each", tuple(changes))
-    return Remedy(f"Each name has a `{keyword}` of its own, on a line of its own or after `;`.",
+    return Remedy(f"Each name needs its own `{keyword}`, on a line of its own or after `;`.",
                   (edit,))  # fmt: skip
 
 
@@ -147,6 +148,12 @@ def factor(cursor: Cursor, at: int) -> Remedy | None:
     if marks[-1:] != ["="]:
         return None  # not in an expression
     gap = Span(cursor.source, cursor.end_of(at - 1).start, cursor.starts[at])
+    if before in FUNCTIONS:
+        change = Span(cursor.source, gap.start, cursor.end_of(at).start), f"({word})"
+        help = f"A function has its argument in brackets: `{before}({word})`."
+        return Remedy(help, (Edit(f"write `({word})`", (change,)),) if word != "(" else ())
+    if words[begin] == "fault":
+        return Remedy('A `fault` has no time: a scenario of `simulate` says when, `at = "2 s"`.')
     shown = say(f"{before}*{word}") if word != "(" and before != ")" else "`*`"
     return replacing(gap, "*", f"A product needs its sign: write {shown}.")
 
@@ -158,6 +165,17 @@ def decimal(cursor: Cursor, at: int) -> Remedy | None:
         return None
     point = f"{cursor.words[at - 1]}.{cursor.words[at + 1]}"
     return replacing(cursor.word_span(at), ".", f"A number has a point: `{point}`.")
+
+
+def bracketed_unit(cursor: Cursor, at: int) -> Remedy | None:
+    """That a unit has no brackets: `3 [Ohm]`."""
+    words = cursor.words
+    end = next((i for i in range(at, len(words)) if words[i] in ("]", "") or cursor.fresh[i]), at)
+    if words[at] != "[" or words[end] != "]" or not words[at - 1][:1].isdigit():
+        return None
+    unit = cursor.source.text[cursor.end_of(at).start : cursor.starts[end]].strip()
+    place = Span(cursor.source, cursor.end_of(at - 1).start, cursor.end_of(end).start)
+    return replacing(place, f" {unit}", f"A unit has no brackets: `{words[at - 1]} {unit}`.")
 
 
 def arrow(cursor: Cursor, at: int) -> Remedy | None:

@@ -26,7 +26,8 @@ class Odd(NamedTuple):
 
 #: What to write instead of a character, or of two, that the language does not have.
 _INSTEAD: Final = {
-    "&": "`and`", "&&": "`and`", "|": "`or`", "||": "`or`", "!": "`not`", "**": "`^`",
+    "&": "`and`", "&&": "`and`", "!": "`not`", "**": "`^`",
+    "|": "`abs(x)` for an absolute value, `or` between conditions", "||": "`or`",
     "'": 'double quotes, `"file.bg"`', "−": "a plain minus, `-`", "–": "a plain minus, `-`",
     "—": "a plain minus, `-`", "→": "`->`", "⇀": "`->`", "←": "`<-`", "↼": "`<-`", "×": "`*`",
     "·": "`*` (`.` in a unit)", "⋅": "`*` (`.` in a unit)", "÷": "`/`", "≤": "`<=`", "≥": "`>=`",
@@ -139,7 +140,7 @@ def _character(text: str, found: str, at: int, start: int) -> Odd:
         at,
         "here",
         f"Write {instead}." if instead else "Remove it; in a comment, after `#`, it may stay.",
-        None if found in "'?" else (start, start + len(found), new),
+        None if found in "'?|" else (start, start + len(found), new),
     )
 
 

@@ -43,12 +43,25 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
     ValueKind,
 )
-from bondgraph.text.diagnostic import Label, Remedy, Report
+from bondgraph.text.diagnostic import Label, Remedy, Report, replacing
 from bondgraph.text.limits import PARTS, UNROLLED
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
 _KEYWORDS: dict[str, ValueKind] = {"param": "param", "const": "const"}
+#: What elements are called in circuits and in mechanics, and which kind they are.
+_KIND_OF = {
+    word: kind
+    for kind, words in {
+        "R": "resistor damper friction d b", "C": "capacitor cap spring k",
+        "I": "l inductor coil mass m inertia j",
+    }.items()
+    for word in words.split()
+}  # fmt: skip
+_VALUE_OF = {
+    "R": "resistance, effort over flow", "C": "capacitance or compliance, 1/k of a spring",
+    "I": "inertia or inductance",
+}  # fmt: skip
 #: A statement of so many characters counts once, a longer one more.
 _USUAL = 40
 
@@ -374,10 +387,16 @@ class Opener(Arguments):
         definition = scope.definition.known.get(node.type)
         if definition is None:
             names = (*KINDS, *scope.definition.known)
+            help = meant(node.type, names, "Element kinds are R C I IC TF GY Se Sf De Df; a model "
+                         "must be declared in this file or imported.", node.origin)  # fmt: skip
+            kind = _KIND_OF.get(node.type.lower())
+            if kind is not None and kind not in scope.definition.known:
+                place = Span(node.origin.source, node.origin.start,
+                             node.origin.start + len(node.type))  # fmt: skip
+                help = replacing(place, kind, f"What is called so is `{kind}:{node.name.name}` in "
+                                 f"a bond graph, and its value the {_VALUE_OF[kind]}.")
             fail(self.report, "unknown-type", f"There is no element kind or model `{node.type}`.",
-                 node.origin, help=meant(node.type, names, "Element kinds are R C I IC TF GY Se Sf "
-                 "De Df; a model must be declared in this file or imported.",
-                 node.origin))  # fmt: skip
+                 node.origin, help=help)  # fmt: skip
         if isinstance(definition, Missing):
             raise Skip
         return self.instances(definition, node, scope, env)
