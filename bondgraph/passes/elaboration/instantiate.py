@@ -484,9 +484,10 @@ class Opener(Arguments):
             high = whole_number(part.last, scope, env, self.report)
         else:
             high = whole_number(part.first, scope, env, self.report)
-            low = high if mentions(part.first, env) else 1
-            nodes = table is scope.nodes
-            if low == 1 and self.again.another_size(part, nodes, table.get(part.name), high):
+            one = mentions(part.first, env)
+            low = high if one else 1
+            before, nodes = table.get(part.name), table is scope.nodes
+            if not one and self.again.another_size(part, nodes, before, high):
                 return [high]  # as it was meant
             if high < 0 and low == 1:
                 fail(self.report, "index-out-of-range", f"`{part.origin.text}` declares a negative "
