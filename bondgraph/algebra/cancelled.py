@@ -15,6 +15,7 @@ from bondgraph.ir.expr import Expr, Op, Pool, topological
 
 #: What may be given another argument: a product says itself where it divides by zero.
 _TOTAL = (Op.ADD, Op.MUL, Op.DER, Op.INT, Op.IF)
+_TRIED = 8  # parts that one may stand for; each costs a substitution
 
 
 def without(
@@ -37,17 +38,46 @@ def without(
     [x + y]
     >>> without(p, p.sub(p.fn("log", p.mul(k, x)), p.fn("log", p.mul(k, y))), [k])
     [log(x*k) - log(y*k)]
+    >>> without(p, p.div(k, p.add((1, x), (1, p.sub(p.mul(k, y), x)))), [k, x])
+    [1/y]
     """
     left = {n: number or pool.zero for n in parts if n.op is not Op.NUM}
     while left:
-        changed = _substituted(pool, [expr], left)
-        lost = _lost({n: new for n, new in changed.items() if n not in left}, changed)
+        lost = _lost(*_apart(pool, expr, left))
+        if lost and number is None:
+            left, lost = _with_one(pool, expr, left, lost)
         if not lost:
             changed = _substituted(pool, [expr, *others], left)
             return [changed[e] or e for e in (expr, *others)]
         stay = {n for n in topological(lost) if n in left}
         left = {n: new for n, new in left.items() if n not in stay}
     return [expr, *others]
+
+
+def _apart(
+    pool: Pool, expr: Expr, left: dict[Expr, Expr]
+) -> tuple[dict[Expr, Expr | None], dict[Expr, Expr | None]]:
+    """The nodes of an expression after a substitution without those that were put in, and all."""
+    changed = _substituted(pool, [expr], left)
+    return {n: new for n, new in changed.items() if n not in left}, changed
+
+
+def _with_one(
+    pool: Pool, expr: Expr, left: dict[Expr, Expr], lost: list[Expr]
+) -> tuple[dict[Expr, Expr], list[Expr]]:
+    """One for parts that zero cannot stand for, where that loses nothing: m*x/(m*y) has x and y.
+
+    Any number may stand for a part that cancels. Of those below what is lost the largest are tried.
+    """
+    below = [n for n in topological(lost, stop=left.__contains__) if n in left]
+    trial = dict(left)
+    for part in below[: -_TRIED - 1 : -1]:
+        trial[part] = pool.one
+        nodes, changed = _apart(pool, expr, trial)
+        new = changed[expr]
+        if new is not None and not _lost(nodes, changed) and agree([(expr, new)])[0]:
+            return trial, []
+    return left, lost
 
 
 def _substituted(

@@ -158,7 +158,9 @@ class _Reader:
                 return after.startswith('"')
             case "bool" | "int":
                 return before == ":"
-            case "when" | "counts" | "unknown":
+            case "counts":  # before an operand; else it is a unit
+                return not begins and same_line and (after[:1].isalnum() or after == "(")
+            case "when" | "unknown":
                 return not begins and after != ":" and (before.isidentifier() or before == "]"
                                                         or word != "when")  # fmt: skip
             case "else":

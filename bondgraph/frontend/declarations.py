@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bondgraph.frontend.cursor import SyntaxProblem
 from bondgraph.frontend.expression_parser import Expressions
 from bondgraph.ir import syntax
 from bondgraph.text.diagnostic import Edit, Remedy, replacing
@@ -35,7 +36,7 @@ class Declarations(Expressions):
         self.i = at + 1
         return at, self.doc(at)
 
-    def _colon(self, help: str) -> None:
+    def _colon(self, help: str | Remedy) -> None:
         self.notes.wide_colons.append(self.take(":", "`:`", help))
 
     def _param(self, keyword: str) -> syntax.Param:
@@ -46,8 +47,12 @@ class Declarations(Expressions):
             value = self.expression()
             tolerance = self.tolerance()
             return syntax.Param(keyword, name, None, value, tolerance, doc, self.span(at))
-        help = f"Write `{keyword} {name.name} = 3 Ohm`, or `: Ohm` for a value given later."
-        self._colon(help)
+        from bondgraph.frontend.habits import several  # only for a message
+
+        more = several(self, self.i) if self.words[self.i] == "," else None
+        self._colon(
+            more or f"Write `{keyword} {name.name} = 3 Ohm`, or `: Ohm` for a value given later."
+        )
         unit = self.unit()
         if self.words[self.i] == "=" and not self.fresh[self.i]:
             help = (
@@ -100,10 +105,45 @@ class Declarations(Expressions):
         if self.words[self.i] == ":" and not self.fresh[self.i]:
             self._colon("")
             boolean = self.keyword("bool")
+            word = self.words[self.i]
+            if not boolean and word.lower() in ("boolean", "bool", "logical"):
+                help = replacing(self.word_span(self.i), "bool", "A mode is an `input ... : bool`.")
+                raise self.unexpected("`bool` or a unit", help)
             if not boolean:
                 unit = self.unit()
         unknown = self.keyword("unknown")
+        if self.words[self.i] == "=" and not self.fresh[self.i]:
+            raise self._input_value(at, name, boolean)
         return syntax.Input(name, unit, boolean, unknown, doc, self.span(at))
+
+    def _input_value(self, at: int, name: syntax.Part, boolean: bool) -> SyntaxProblem:
+        """`input U = 12 V`: what a log says has no value in the model."""
+        equals = self.i
+        self.i += 1
+        value = self.expression()
+        place = self.span(at)
+        self.i = equals
+        edits: tuple[Edit, ...] = ()
+        help = f"A log says what it is, or `simulate --input {name.name}=...`. What is fixed "
+        if boolean:
+            help += (
+                "when the model is put together is an argument of it, "
+                f"`model Name({name.name} : bool = true)`."
+            )
+        else:
+            declared = f"param {name.origin.text} = {value.origin.text}"
+            help += f"is a `{declared}`, which a source `Se:{name.name}` may give as well."
+            edits = replacing(place, declared).edits
+            if isinstance(value, syntax.Number) and value.unit is not None:
+                only = f"input {name.origin.text} : {value.unit}"
+                edits = (*replacing(place, only).edits, *edits)
+        return self.problem(
+            "input-value",
+            f"`{name.origin.text}` is an input and has a value.",
+            equals,
+            "an input has none in the model",
+            help=Remedy(help, edits),
+        )
 
     def _sensor(self) -> syntax.Sensor:
         at, doc = self._begun()
@@ -132,12 +172,16 @@ class Declarations(Expressions):
             and whole.right.parts[0].name == "turn"
         ):
             return whole.left
+        help: str | Remedy = "Write `counts 24/turn`; a sum needs brackets, `counts (n + 1)/turn`."
+        if isinstance(whole, syntax.Number) and (whole.unit or "").endswith("/turn"):
+            right = f"{whole.text}/turn"
+            help = replacing(whole.origin, right, f"Write `counts {right}`, without a unit.")
         raise self.problem(
             "counts-per-turn",
             "The resolution of an encoder is a number of counts per turn.",
             at,
             "this resolution",
-            help="Write `counts 24/turn`; a sum needs brackets, `counts (n + 1)/turn`.",
+            help=help,
         )
 
     def _fault(self) -> syntax.Fault:

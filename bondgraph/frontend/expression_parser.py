@@ -152,6 +152,12 @@ class Expressions(Cursor):
             if word == "true" or word == "false":
                 self.i = at + 1
                 return syntax.Truth(word == "true", self.span(at))
+            if word == "if" and not self.fresh[at]:
+                from bondgraph.frontend.habits import choice  # only for a message
+
+                after = self.words[at + 1]
+                if after[:1].isalnum() or after == "-":  # `if` may be the name of a value
+                    raise self.unexpected("a value", choice(self, at) or _OPERAND_HELP)
             if word in RESERVED:
                 raise self.unexpected(
                     "a value",
@@ -223,16 +229,12 @@ class Expressions(Cursor):
                 at,
             )
         here = say(self.words[at])
-        help = f"Close the bracket with `{bracket}`, or check what stands before {here}."
-        if self.after_number(at):
-            help = "A product needs its sign: write `*` between the factors."
-        raise self.unexpected(wanted, help, Label(self.word_span(opening), "opened here"))
+        from bondgraph.frontend.habits import choice, factor  # only for a message
 
-    def after_number(self, at: int) -> bool:
-        """Whether a factor follows a number without an operator."""
-        units = self.notes.units
-        after = self.words[at - 1][:1].isdigit() or (bool(units) and units[-1][1] == at)
-        return after and (self.words[at][:1].isalnum() or self.words[at] == "(")
+        help = choice(self, at) or factor(self, at) or (
+            f"Close the bracket with `{bracket}`, or check what stands before {here}."
+        )
+        raise self.unexpected(wanted, help, Label(self.word_span(opening), "opened here"))
 
     def ref(self) -> syntax.Ref:
         """A dotted reference, `m[1].el.Re`."""
@@ -281,7 +283,7 @@ class Expressions(Cursor):
         if self.starts[at + 1] == end + 1 and self.source.text[end] == " ":
             after = self.words[at + 1]
             if after.isidentifier():
-                may_be = after not in NOT_UNITS
+                may_be = after not in NOT_UNITS or (after == "counts" and not self._counted(at + 2))
             else:
                 may_be = not after.isascii() or (after == "1" and self.words[at + 2] in (".", "/"))
             if may_be:
@@ -291,6 +293,11 @@ class Expressions(Cursor):
             if glued is not None:
                 raise glued
         return syntax.Number(value, unit, word, self.span(at))
+
+    def _counted(self, at: int) -> bool:
+        """Whether `counts` before word `at` begins the resolution of an encoder, and is no unit."""
+        word = self.words[at]
+        return (word[:1].isalnum() or word == "(") and not self.fresh[at]
 
     def _value(self, at: int) -> Fraction:
         word = self.words[at]
@@ -327,7 +334,7 @@ class Expressions(Cursor):
     def unit(self) -> str:
         """A unit that must be there, as after a colon."""
         word = self.words[self.i]
-        if word in NOT_UNITS or (self.fresh[self.i] and not self.brackets):
+        if (word in NOT_UNITS and word != "counts") or (self.fresh[self.i] and not self.brackets):
             unit = None
         else:
             unit = self._unit()

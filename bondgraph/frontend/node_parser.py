@@ -7,6 +7,7 @@ from bondgraph.frontend.declarations import NAME_HELP, Declarations
 from bondgraph.frontend.words import is_arrow, say
 from bondgraph.ir import syntax
 from bondgraph.text.diagnostic import Label, Remedy, replacing
+from bondgraph.text.source import Span
 
 _NODE_HELP = "Write a node: `R:name` declares one, `name` means one declared elsewhere."
 
@@ -62,13 +63,26 @@ class Nodes(Declarations):
         odd = self.odd_word(at)
         if odd is not None:
             raise odd
-        help = "End the statement with a line end or `;`."
-        if word == "," or word == "=":
+        from bondgraph.frontend.habits import (
+            arrow,
+            bracketed_unit,
+            choice,
+            decimal,
+            factor,
+            several,
+        )
+
+        help: str | Remedy = "End the statement with a line end or `;`."
+        meant = (
+            several(self, at) or choice(self, at) or factor(self, at) or decimal(self, at)
+            or arrow(self, at) or bracketed_unit(self, at)
+        )  # fmt: skip
+        if meant is not None:
+            help = meant
+        elif word == "," or word == "=":
             help = "Equations and statements are separated by a line end or `;`."
-        elif word == "(" or self.after_number(at):
+        elif word == "(":
             help = "End the statement with a line end or `;`; a product needs its sign `*`."
-        elif (word, self.words[at + 1]) in (("-", ">"), ("<", "-")):
-            help = "An arrow is written without a space: `->` or `<-`."
         elif word == ".":
             help = (
                 "A node is declared by its name alone: write it in a statement of its own, "
@@ -229,7 +243,19 @@ class Nodes(Declarations):
                 "of a junction, `0:name { ... }` or `1:name { ... }`.",
             )
         left = self.expression()
-        self.take("=", "`=`", "A law is an equation: `e = R*f`, or `0 = e - R*f`.")
+        help: str | Remedy = "A law is an equation: `e = R*f`, or `0 = e - R*f`."
+        if isinstance(left, syntax.Binary) and left.op == "==" and self.words[self.i] != "=":
+            sign = self.source.text.index("==", left.left.origin.end)
+            place = Span(self.source, sign, sign + 2)
+            raise SyntaxProblem(
+                "syntax-unexpected", "I expected `=`, but I found `==`.",
+                (Label(place, "`=` expected here"),),
+                replacing(place, "=", "A law has one `=`; two compare, as in a condition."), self.i,
+            )  # fmt: skip
+        if self.words[self.i : self.i + 2] == [":", "="]:
+            place = Span(self.source, self.starts[self.i], self.end_of(self.i + 1).start)
+            help = replacing(place, "=", "A law is an equation, with `=`.")
+        self.take("=", "`=`", help)
         return syntax.Equation(left, self.expression(), self.span(at))
 
 

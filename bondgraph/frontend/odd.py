@@ -26,7 +26,8 @@ class Odd(NamedTuple):
 
 #: What to write instead of a character, or of two, that the language does not have.
 _INSTEAD: Final = {
-    "&": "`and`", "&&": "`and`", "|": "`or`", "||": "`or`", "!": "`not`", "**": "`^`",
+    "&": "`and`", "&&": "`and`", "!": "`not`", "**": "`^`",
+    "|": "`abs(x)` for an absolute value, `or` between conditions", "||": "`or`",
     "'": 'double quotes, `"file.bg"`', "−": "a plain minus, `-`", "–": "a plain minus, `-`",
     "—": "a plain minus, `-`", "→": "`->`", "⇀": "`->`", "←": "`<-`", "↼": "`<-`", "×": "`*`",
     "·": "`*` (`.` in a unit)", "⋅": "`*` (`.` in a unit)", "÷": "`/`", "≤": "`<=`", "≥": "`>=`",
@@ -34,7 +35,7 @@ _INSTEAD: Final = {
     "\u200b": "nothing: it is an invisible space", "\u2009": "a plain space",
     "\u202f": "a plain space", "//": "`#` for a comment", "/*": "`#` for a comment",
     "=>": "`->` for a bond, `>=` for a comparison", "-->": "`->`", "<--": "`<-`",
-    "\x0c": "a line end", "+/-": "`+-`", "+/−": "`+-`",
+    "?": "`if(condition, a, b)` to choose", "\x0c": "a line end", "+/-": "`+-`", "+/−": "`+-`",
 }  # fmt: skip
 _PLAIN: Final = frozenset('+-*/^<>=(){}[],;:.%"±')
 _GREEK: Final = dict(
@@ -105,7 +106,7 @@ def _odd_sign(text: str, words: list[str], starts: list[int], at: int) -> Odd | 
         for length in (3, 2):
             found = text[there : there + length]
             if there >= 0 and there + length > start and found in _INSTEAD:
-                return _character(found, at, there)
+                return _character(text, found, at, there)
     if word == "+-":
         return Odd(
             "tolerance-misplaced",
@@ -115,10 +116,18 @@ def _odd_sign(text: str, words: list[str], starts: list[int], at: int) -> Odd | 
         )  # fmt: skip
     if len(word) > 1 or word.isalnum() or word in _PLAIN or word == "_":
         return None
-    return _character(word, at, start)
+    return _character(text, word, at, start)
 
 
-def _character(found: str, at: int, start: int) -> Odd:
+def _character(text: str, found: str, at: int, start: int) -> Odd:
+    own = re.search(r"(?:[a-zA-Z][\w.\[\]]*|\))\Z", text[max(0, start - 40) : start])
+    if found == "'" and own is not None:
+        place = (start - len(own[0]), start + 1, f"der({own[0]})")
+        return Odd(
+            "syntax-character", "The language has no `'`.", at, "here",
+            f"Write `der({'...' if own[0] == ')' else own[0]})` for a derivative in time.",
+            None if own[0] == ")" else place,
+        )  # fmt: skip
     shown = say(found) if found.isprintable() and found.strip() else f"U+{ord(found[0]):04X}"
     instead = _INSTEAD.get(found)
     plain = re.match("`([^`]+)`", instead or "")
@@ -131,7 +140,7 @@ def _character(found: str, at: int, start: int) -> Odd:
         at,
         "here",
         f"Write {instead}." if instead else "Remove it; in a comment, after `#`, it may stay.",
-        None if found == "'" else (start, start + len(found), new),
+        None if found in "'?|" else (start, start + len(found), new),
     )
 
 

@@ -184,8 +184,10 @@ class Statements(Nodes):
             if not inside and is_arrow(words[self.i]):
                 raise self._no_start(self.i)
             if not self.fresh[self.i] and words[self.i] not in (";", "}"):
+                from bondgraph.frontend.habits import arrow  # only for a message
+
                 raise self.misspelt(at, sorted(KEYWORDS)) or self.unexpected(
-                    "an arrow or `{`", _alone(words[at])
+                    "an arrow or `{`", arrow(self, self.i) or _alone(words[at])
                 )
             raise self.problem(
                 "name-alone",
@@ -251,16 +253,20 @@ class Statements(Nodes):
         )
 
     def misspelt(self, at: int, keywords: list[str]) -> SyntaxProblem | None:
-        """A complaint about a word before a name that is nearly a keyword: `parm R = 2`."""
+        """A complaint about a word that is nearly a keyword, `parm R = 2`, or one of elsewhere."""
         word = self.words[at]
-        if not word.isidentifier() or not self.words[at + 1].isidentifier():
+        if not word.isidentifier():
             return None
-        from difflib import get_close_matches  # only for a message
+        from bondgraph.frontend.habits import statement_meant  # only for a message
 
-        close = get_close_matches(word.lower(), keywords, 1, 0.6)
-        if not close:
+        help = statement_meant(self, at)
+        if help is None and self.words[at + 1].isidentifier():
+            from difflib import get_close_matches
+
+            close = get_close_matches(word.lower(), keywords, 1, 0.6)
+            help = replacing(self.word_span(at), close[0]) if close else None
+        if help is None:
             return None
-        help = replacing(self.word_span(at), close[0])
         what = f"There is no statement that begins with {say(word)}."
         return self.problem("unknown-statement", what, at, "not a keyword", help=help)
 

@@ -40,6 +40,7 @@ mph m.s^-1 0.44704        |kmh m.s^-1 5/18          |kn m.s^-1 1852/3600 |gal m^
 lpm m^3.s^-1 1/60000      |gpm m^3.s^-1 0.003785411784/60         |cc m^3 1e-6
 % 1 1/100          |percent 1 1/100     |‰ 1 1/1000        |ppm 1 1e-6       |ppb 1 1e-9
 turn 1 2pi         |rev 1 2pi           |cycle 1 2pi       |rpm s^-1 pi/30   |rps s^-1 2pi
+count 1 1          |counts 1 1         |pulse 1 1         |pulses 1 1
 deg 1 pi/180       |° 1 pi/180          |arcmin 1 pi/10800 |arcsec 1 pi/648000 |gon 1 pi/200
 """
 _PREFIXES = {
@@ -82,6 +83,11 @@ _WORDS = {
     "foot": "ft", "feet": "ft", "pound": "lb", "micron": "um", "millimeter": "mm",
     "millimetre": "mm", "millisecond": "ms", "kohm": "kOhm", "mohm": "mOhm", "pct": "%",
     "nms": "N.m.s",
+}  # fmt: skip
+
+_PREFIX_WORDS = {
+    "nano": "n", "pico": "p", "micro": "u", "milli": "m", "centi": "c", "deci": "d", "hecto": "h",
+    "kilo": "k", "mega": "M", "giga": "G",
 }  # fmt: skip
 
 _described: dict[Dimension, str] = {}
@@ -217,6 +223,12 @@ def _respelt(name: str) -> str | None:
     typo = get_close_matches(name, list(_entries()), 1, 0.85)
     if typo:
         return typo[0]
+    prefixed = _with_prefix(name)
+    if prefixed:
+        return prefixed
+    word = get_close_matches(lower, list(_WORDS), 1, 0.85) if len(name) > 3 else []
+    if word:
+        return _WORDS[word[0]]
     for length in range(len(name) - 1, 0, -1):  # Nm, As, kgm: two names without the dot
         if _atom(name[:length]):
             rest = name[length:]
@@ -225,6 +237,23 @@ def _respelt(name: str) -> str | None:
                 return f"{name[:length]}.{second}"
     close = get_close_matches(name, list(_entries()), 1, 0.75)
     return close[0] if close and len(name) > 2 else None
+
+
+def _with_prefix(name: str) -> str | None:
+    """A unit whose prefix or whose name is a word, `mHenry` or `microF`; never without its prefix.
+
+    >>> _with_prefix("mHenry"), _with_prefix("microF"), _with_prefix("kilonewtons")
+    ('mH', 'uF', 'kN')
+    """
+    found = [(p, s) for p, s in _PREFIX_WORDS.items() if name.lower().startswith(p)]
+    found += [(p, p) for p in _PREFIXES if name.startswith(p)]
+    for prefix, symbol in found:
+        rest = name[len(prefix) :]
+        known = _WORDS.get(rest.lower()) or _WORDS.get(rest.lower().removesuffix("s"))
+        for unit in (symbol + rest, symbol + (known or "")):
+            if unit != symbol and _atom(unit):
+                return unit
+    return None
 
 
 def _compose(dimension: Dimension) -> str:

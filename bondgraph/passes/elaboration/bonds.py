@@ -70,8 +70,8 @@ class Flattener:
                 end.port = 0
             if len(node.bonds) > 1:
                 self.too_many(node, node.bonds[:2], "has one port, but two bonds",
-                              "Put a 0- or 1-junction there and let each element have its own "
-                              "bond.")  # fmt: skip
+                              _between(node) or "Put a 0- or 1-junction there and let each element "
+                              "have its own bond.")  # fmt: skip
         if node.scope.unlinked:
             return
         met = {e.port for e in node.bonds}
@@ -293,3 +293,16 @@ def check_scope(scope: Scope, flattener: Flattener) -> None:
     for item in scope.items:
         if isinstance(item, NodeEntry):
             flattener.number_ports(item)
+
+
+def _between(node: NodeEntry) -> str:
+    """Where a passive one-port belongs that was drawn between two others, as in a circuit."""
+    tails = [e.other for e in node.bonds if e.bond.head is e]
+    heads = [e.other for e in node.bonds if e.bond.tail is e]
+    if len(tails) != 1 or len(heads) != 1 or node.element is None or not node.element.passive:
+        return ""
+    one, other = (end.origin.text.split(" ")[0] for end in (tails[0], heads[0]))
+    return (
+        f"What lies between two others has the flow of a 1-junction: `{one} -> 1:through -> "
+        f"{other}`, and `through -> {node.type}:{node.name}` with its value."
+    )

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Part, Ref, Text, Truth, Unary
 from bondgraph.passes.elaboration.problems import fail, meant, rough
-from bondgraph.passes.elaboration.scope import Env, Scope
+from bondgraph.passes.elaboration.scope import Env, Scope, ValueEntry
 from bondgraph.text.diagnostic import Report
 
 _MOST_DEEP = 100
@@ -16,6 +16,10 @@ _MOST_BITS = 64
 _HELP = (
     "Sizes, indices and conditions of `if` are fixed when the model is built: use numbers, "
     "`for` variables and the structural arguments `(n : int)` of the model."
+)
+_WHILE_RUNNING = (
+    "What depends on signals is chosen while the machine runs: in a law with "
+    "`if(condition, a, b)`, or by a switched junction, `1:name when condition { ... }`."
 )
 
 
@@ -119,8 +123,13 @@ def _name(ref: Ref, scope: Scope, env: Env, report: Report) -> Fraction | bool:
                  help="A structural argument can use those before it only.")  # fmt: skip
     known = (*env, *scope.generics)
     if part.name in scope.values:
+        entry = scope.values[part.name]
+        signal = isinstance(entry, ValueEntry) and entry.kind not in ("param", "const")
         fail(report, "not-structural", f"`{ref.origin.text}` is not known when the model is built.",
-             ref.origin, help=_HELP)  # fmt: skip
+             ref.origin, help=_WHILE_RUNNING if signal else _HELP)  # fmt: skip
+    if part.name in scope.nodes:
+        fail(report, "not-structural", f"`{ref.origin.text}` is not known when the model is built.",
+             ref.origin, help=_WHILE_RUNNING)  # fmt: skip
     fail(report, "unknown-name", f"There is no structural argument or `for` variable "
          f"`{ref.origin.text}`.", ref.origin,
          help=meant(part.name, known, _HELP, ref.origin))  # fmt: skip

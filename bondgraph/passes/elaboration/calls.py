@@ -24,6 +24,25 @@ _OTHERS = {
 }  # fmt: skip
 
 
+#: What other languages call functions, and how this one writes them.
+_ELSEWHERE = {
+    word: form
+    for words, form in (
+        ("integral integrate integ cumtrapz", "int(x)"),
+        ("ddt d dt diff deriv derivative pre dot", "der(x)"),
+        ("interp interp1 interp1d interp2 lookup table1d table2d spline", 'table("file.csv", x)'),
+        ("ifelse iif cond where select switch", "if(condition, a, b)"),
+        ("step heaviside", "if(x > 0, 1, 0)"),
+        ("clip clamp sat saturate limit limiter", "min(max(x, low), high)"),
+        ("sqr square", "x^2"),
+        ("root", "sqrt(x)"),
+        ("power", "x^n"),
+        ("signedsqrt sqrtsigned", "ssqrt(x)"),
+    )
+    for word in words.split()
+}
+
+
 class Past(NamedTuple):
     """What a known signal `base` said some time ago: `age` in s."""
 
@@ -35,6 +54,18 @@ class Past(NamedTuple):
 def names() -> tuple[str, ...]:
     """Every function that can be called."""
     return tuple(sorted({*FUNCTIONS, *_ALIASES, *_OTHERS}))
+
+
+def form(name: str) -> str:
+    """How a function is called.
+
+    >>> form("sin"), form("atan2"), form("if")
+    ('sin(x)', 'atan2(x, y)', 'if(condition, a, b)')
+    """
+    special = {"if": "if(condition, a, b)", "table": 'table("file.csv", x)', "delay": "delay(x, T)"}
+    name_ = _ALIASES.get(name, name)
+    low, _ = _OTHERS.get(name_) or (len(FUNCTIONS[name_].slopes),) * 2
+    return special.get(name, f"{name}({', '.join('xy'[:low])})")
 
 
 class Calls(Expressions):
@@ -55,10 +86,11 @@ class Calls(Expressions):
         """A call of any function."""
         name = _ALIASES.get(call.name, call.name)
         if name not in FUNCTIONS and name not in _OTHERS:
+            other = _ELSEWHERE.get(call.name.lower())
             fail(self.report, "unknown-function", f"There is no function `{call.name}`.",
-                 call.origin, help=meant(call.name, names(), "Write a product with `*`; a "
-                 'characteristic may come from a table: `table("file.csv", x)`.',
-                 call.origin))  # fmt: skip
+                 call.origin, help=f"Write `{other}`." if other else meant(call.name, names(),
+                 'Write a product with `*`; a characteristic may come from a table: '
+                 '`table("file.csv", x)`.', call.origin))  # fmt: skip
         low, high = _OTHERS.get(name) or (len(FUNCTIONS[name].slopes),) * 2
         if not low <= len(call.arguments) <= high:
             needs = f"{low}" if low == high else f"{low} to {high}"

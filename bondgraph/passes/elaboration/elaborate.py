@@ -19,6 +19,11 @@ from bondgraph.passes.elaboration.connect import Wiring
 from bondgraph.passes.elaboration.delayed import delayed
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.files import Definition, Files, Load, pick, recursion
+from bondgraph.passes.elaboration.implausible import (
+    report_signs,
+    report_sources,
+    report_temperatures,
+)
 from bondgraph.passes.elaboration.instantiate import Opener
 from bondgraph.passes.elaboration.laws import Laws
 from bondgraph.passes.elaboration.lookup import Lookup
@@ -137,6 +142,9 @@ class _Elaboration:
             report_parts(graph, self.report)
             report_unused(self.entries, values.used, self.report)
             report_nameless(laws.nameless, self.report)
+            report_temperatures(self.nodes, self.report)
+            report_sources(self.nodes, self.quantities, self.report)
+            report_signs(laws.linear_ones, records.number, records.tolerated, self.report)
         return None if self.report.failed else graph
 
     def connect(self) -> None:

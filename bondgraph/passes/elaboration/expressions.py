@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from abc import ABC, abstractmethod
 from fractions import Fraction
 from typing import NoReturn, assert_never
@@ -10,10 +11,11 @@ from bondgraph.ir.expr import Expr, Op, Pool
 from bondgraph.ir.nodes import constant
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
 from bondgraph.library.dimensions import Term
+from bondgraph.library.units import parse_unit
 from bondgraph.passes.elaboration.problems import Skip, fail, rough
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import Env, Scope, Typed
-from bondgraph.text.diagnostic import Report
+from bondgraph.text.diagnostic import Report, replacing
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -55,6 +57,14 @@ class Expressions(ABC):
         """The value of a reference."""
 
     @abstractmethod
+    def is_value(self, name: str, place: Place) -> bool:
+        """Whether something is called so that has a value here."""
+
+    @abstractmethod
+    def no_mode(self, ref: Ref, place: Place) -> None:
+        """Report an input that is used as a condition and not declared as one."""
+
+    @abstractmethod
     def call(self, call: Call, place: Place) -> Typed:
         """The value of a function."""
 
@@ -67,7 +77,7 @@ class Expressions(ABC):
                      expr.origin, help="Split it into several `let`s.")  # fmt: skip
             match expr:
                 case Number():
-                    return self.number(expr)
+                    return self.number(expr, place)
                 case Ref():
                     return self.reference(expr, place)
                 case Binary():
@@ -100,6 +110,8 @@ class Expressions(ABC):
         """An expression that must be true or false."""
         node, term = self.convert(expr, place)
         if term is not None:
+            if isinstance(expr, Ref):
+                self.no_mode(expr, place)
             fail(self.report, "not-a-condition", f"`{expr.origin.text}` is a number: a condition "
                  "is needed here.", expr.origin, help="Compare it with something, as in `x > 0`, "
                  "or use an `input ... : bool`.")  # fmt: skip
@@ -115,15 +127,34 @@ class Expressions(ABC):
         """A truth value known when the model is built."""
         return self.pool.one if value else self.pool.zero
 
-    def number(self, number: Number) -> tuple[Expr, Term]:
+    def number(self, number: Number, place: Place | None = None) -> tuple[Expr, Term]:
         """A literal in SI; without a unit it takes the one that its use requires."""
         if number.unit is None:
             return self.pool.num(self.held(number.value, number.origin)), (
                 self.quantities.dimensions.fresh(number.origin, f"`{number.text}`")
             )
+        if place is not None:
+            self.value_for_unit(number, number.unit, place)
         dimension, factor = self.quantities.unit(number.unit, number.origin)
         term = self.quantities.known(dimension, number.origin, "")
         return self.pool.num(self.held(number.value * factor, number.origin)), term
+
+    def value_for_unit(self, number: Number, unit: str, place: Place) -> None:
+        """Refuse `2 R` and `3 J/K/n` where R and n are values, or variables of the law."""
+        if parse_unit(unit) is not None:
+            return
+        parts = re.split("([./])", unit)
+        names = [self.is_value(part.partition("^")[0], place) for part in parts]
+        if not any(names):
+            return
+        at = names.index(True)
+        own, rest = "".join(parts[: max(at - 1, 0)]), "".join(parts[at:])
+        sign = "/" if at and parts[at - 1] == "/" else "*"
+        left = f"({number.text} {own})" if own else number.text
+        meant = f"{left}{sign}{rest}"
+        fail(self.report, "unknown-unit", f"`{unit}` is no unit.", number.origin,
+             help=replacing(number.origin, meant, f"`{parts[at]}` is a value, and no part of a "
+             f"unit: write `{meant}`."))  # fmt: skip
 
     # ------------------------------------------------------------------ operators
 

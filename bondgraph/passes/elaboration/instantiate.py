@@ -27,6 +27,7 @@ from bondgraph.ir.syntax import (
 from bondgraph.library.elements import JUNCTIONS, KINDS
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.build_time import decided, index, mentions, truth, whole_number
+from bondgraph.passes.elaboration.declared_again import DeclaredAgain
 from bondgraph.passes.elaboration.files import Definition, Missing
 from bondgraph.passes.elaboration.problems import Abort, Skip, fail, listed, meant, rough
 from bondgraph.passes.elaboration.scope import (
@@ -42,12 +43,25 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
     ValueKind,
 )
-from bondgraph.text.diagnostic import Label, Remedy, Report
+from bondgraph.text.diagnostic import Label, Remedy, Report, replacing
 from bondgraph.text.limits import PARTS, UNROLLED
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
 _KEYWORDS: dict[str, ValueKind] = {"param": "param", "const": "const"}
+#: What elements are called in circuits and in mechanics, and which kind they are.
+_KIND_OF = {
+    word: kind
+    for kind, words in {
+        "R": "resistor damper friction d b", "C": "capacitor cap spring k",
+        "I": "l inductor coil mass m inertia j",
+    }.items()
+    for word in words.split()
+}  # fmt: skip
+_VALUE_OF = {
+    "R": "resistance, effort over flow", "C": "capacitance or compliance, 1/k of a spring",
+    "I": "inertia or inductance",
+}  # fmt: skip
 #: A statement of so many characters counts once, a longer one more.
 _USUAL = 40
 
@@ -157,7 +171,10 @@ class Arguments:
             else:
                 ports = [(f"{p.name}." if p.name else "", p.stores) for p in entry.ports]
                 names = [f"`{before}{stores}0`" for before, stores in ports if stores]
-                help = f"It takes {' or '.join(names)}, its initial state."
+                kinds = {stores for _, stores in ports if stores}
+                what = {"q": "displacement or charge", "p": "momentum or flux"}
+                own = f": its {what[kinds.pop()]}" if len(kinds) == 1 else ""
+                help = f"It takes {' or '.join(names)}, its initial state{own}."
                 message = f"`{entry.type}:{entry.name}` takes no argument `{text}`."
             self.report.error("unknown-argument", message, given.argument.origin, help=help)
 
@@ -182,6 +199,7 @@ class Opener(Arguments):
         self.waiting: list[Scope] = []
         self.events: list[Event] = []
         self.size = Size(report)
+        self.again = DeclaredAgain(report)
 
     def open(self, definition: Definition) -> Scope:
         """The top instance with everything inside it."""
@@ -195,6 +213,7 @@ class Opener(Arguments):
 
     def fill(self, scope: Scope) -> None:
         """Everything that the body of the model says."""
+        self.again = DeclaredAgain(self.report)
         self.body(scope.model.body, scope, {}, None)
         for item in tuple(scope.items):
             # a source without a value is a known input, declared or not
@@ -203,6 +222,7 @@ class Opener(Arguments):
                 bare = node is not None and node.value is None and node.law is None
                 if item.element.kind in ("Se", "Sf") and bare and item.name not in scope.values:
                     self.implied(item, scope)
+        self.again.tell(scope)
 
     def implied(self, first: NodeEntry, scope: Scope) -> None:
         """Inputs for the source (or sources, of an array) that nothing declares."""
@@ -299,6 +319,10 @@ class Opener(Arguments):
                               statement.name.origin, statement.doc)  # fmt: skip
             if statement.when is not None:
                 entry.when = Bound(statement.when, scope, env, statement.when.origin)
+            before = self.again.junction(scope.nodes.get(entry.name), entry)
+            if before is not None:
+                self.body(statement.body, scope, env, before)
+                continue
             self.enter(scope.nodes, parts[0].name, place, entry, entry.origin)
             scope.items.append(entry)
             self.refuse_givens(entry, self.matching(scope.givens, entry.name, place))
@@ -312,8 +336,12 @@ class Opener(Arguments):
         for item in chain.nodes:
             if isinstance(item, Node):
                 try:
-                    items.append(self.node(item, scope, env, doc))
+                    before = self.again.node(item, scope, len(chain.nodes) == 1)
+                    made = (before,) if before else self.node(item, scope, env, doc)
+                    items.append(made)
                     doc = ""
+                    if len(chain.nodes) == 1:
+                        self.again.alone.update(made)
                 except Skip:
                     wrong = scope.unlinked = True
                     scope.wrong.add(item.name.name)
@@ -359,10 +387,16 @@ class Opener(Arguments):
         definition = scope.definition.known.get(node.type)
         if definition is None:
             names = (*KINDS, *scope.definition.known)
+            help = meant(node.type, names, "Element kinds are R C I IC TF GY Se Sf De Df; a model "
+                         "must be declared in this file or imported.", node.origin)  # fmt: skip
+            kind = _KIND_OF.get(node.type.lower())
+            if kind is not None and kind not in scope.definition.known:
+                place = Span(node.origin.source, node.origin.start,
+                             node.origin.start + len(node.type))  # fmt: skip
+                help = replacing(place, kind, f"What is called so is `{kind}:{node.name.name}` in "
+                                 f"a bond graph, and its value the {_VALUE_OF[kind]}.")
             fail(self.report, "unknown-type", f"There is no element kind or model `{node.type}`.",
-                 node.origin, help=meant(node.type, names, "Element kinds are R C I IC TF GY Se Sf "
-                 "De Df; a model must be declared in this file or imported.",
-                 node.origin))  # fmt: skip
+                 node.origin, help=help)  # fmt: skip
         if isinstance(definition, Missing):
             raise Skip
         return self.instances(definition, node, scope, env)
@@ -450,7 +484,11 @@ class Opener(Arguments):
             high = whole_number(part.last, scope, env, self.report)
         else:
             high = whole_number(part.first, scope, env, self.report)
-            low = high if mentions(part.first, env) else 1
+            one = mentions(part.first, env)
+            low = high if one else 1
+            before, nodes = table.get(part.name), table is scope.nodes
+            if not one and self.again.another_size(part, nodes, before, high):
+                return [high]  # as it was meant
             if high < 0 and low == 1:
                 fail(self.report, "index-out-of-range", f"`{part.origin.text}` declares a negative "
                      "number of elements.", part.origin, help="Give a size from 0 up."
@@ -484,10 +522,18 @@ class Opener(Arguments):
         assert before is not None
         local = name if place is None else f"{name}[{place}]"
         what = "value" if isinstance(entry, ValueEntry) else "node"
+        help = "Give one of them another name."
+        if origin == before.origin:
+            help = "It stands in a loop: declare it before, or with the index of the loop."
+        elif (
+            isinstance(entry, NodeEntry) and isinstance(before, NodeEntry) and place is None
+            and entry.type == before.type and entry.element is not None
+        ):  # fmt: skip
+            help = (f"Each has one bond: a second one has a name of its own, `{entry.type}:{name}2 "
+                    f"= {name}` where both have one value.")  # fmt: skip
         fail(self.report, "duplicate-name", f"The {what} `{local}` is declared twice.",
              Label(origin, "declared again"), Label(before.origin, "declared here"),
-             help="Give one of them another name; to add bonds to a junction write its bare "
-             "name.")  # fmt: skip
+             help=help)  # fmt: skip
 
 
 class Size:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
 from bondgraph.ir.graph import Law
 from bondgraph.ir.nodes import first_degree, occurs
@@ -20,7 +22,7 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
 )
 from bondgraph.passes.elaboration.values import Values
-from bondgraph.text.diagnostic import Edit, Label, Remedy, Report
+from bondgraph.text.diagnostic import Edit, Label, Remedy, Report, replacing
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -37,6 +39,13 @@ class Coefficient(NamedTuple):
     term: Term
 
 
+class Read(NamedTuple):
+    """An equation of a law as it was read; the dimensions of its sides, unless one is zero."""
+
+    law: Law
+    sides: tuple[Term, Term] | None
+
+
 class Laws:
     """Converts what is written of an element into its laws."""
 
@@ -47,6 +56,8 @@ class Laws:
         self.coefficients: list[Coefficient] = []
         #: Elements whose coefficient is written as a number other than zero.
         self.nameless: list[NodeEntry] = []
+        #: Passive one-ports with a linear law, and e/f, q/e or p/f of it.
+        self.linear_ones: list[tuple[NodeEntry, Expr]] = []
 
     def laws(self, node: NodeEntry) -> tuple[Law, ...]:
         """All laws of an element; raises Skip when they are wrong."""
@@ -175,6 +186,7 @@ class Laws:
                 Law(pool.sub(port.effort, pool.mul(k, other.flow)), None, origin),
                 Law(pool.sub(other.effort, pool.mul(k, port.flow)), None, origin),
             )
+        self.linear_ones.append((node, k))
         if element.kind == "R":
             self.values.alike(values.quotient(e, f), term, origin,
                               f"the resistance of `{node.local}` is effort over flow")  # fmt: skip
@@ -238,9 +250,13 @@ class Laws:
                      "(momentum, flux: p' = e).")  # fmt: skip
         local = self.local(node)
         place = Place(node.scope, node.env, node.path, local)
-        found = [self.equation(q, place, local, node, element) for q in law.equations]
+        read = [self.equation(q, place, local, node, element) for q in law.equations]
         if element.kind in ("TF", "GY"):
-            return self.two_port(node, element, found, written)
+            return self.two_port(node, element, read, written)
+        for one in read:
+            self.one_unit(node, one)
+        found = [one.law for one in read]
+        self.note_linear(node, element, found)
         if len(found) != len(node.ports):
             ports = len(node.ports)
             need = "one equation" if ports == 1 else f"{ports} equations, one a port"
@@ -253,15 +269,12 @@ class Laws:
     def equation(
         self, equation: Equation, place: Place, local: dict[str, Typed], node: NodeEntry,
         element: ElementKind,
-    ) -> Law:  # fmt: skip
+    ) -> Read:  # fmt: skip
         """`left = right`; solved for a port variable where the left side is just that."""
         values = self.values
         left, s = values.quantity(equation.left, place)
         right, t = values.quantity(equation.right, place)
         zero = _is_zero(equation.left) or _is_zero(equation.right)
-        if not zero:
-            what = f"both sides of the law of `{node.local}` have one unit"
-            self.values.alike(s, t, equation.origin, what)
         expr = right if left is self.pool.zero else self.pool.sub(left, right)
         own = [v for v, _ in local.values()]
         present = symbols(expr)
@@ -282,7 +295,33 @@ class Laws:
                      help=f"Write `{node.type}:{node.name} {{ {letter} = ... }}`; a relation "
                      "between effort and flow is an `R`.")  # fmt: skip
         direction = left if solved and not occurs(left, right) else None
-        return Law(expr, direction, equation.origin)
+        law = Law(expr, direction, equation.origin)
+        return Read(law, None if zero else (s, t))
+
+    def one_unit(self, node: NodeEntry, read: Read) -> None:
+        """Require one unit of both sides."""
+        if read.sides is not None:
+            what = f"both sides of the law of `{node.local}` have one unit"
+            self.values.alike(*read.sides, read.law.origin, what)
+
+    def note_linear(self, node: NodeEntry, element: ElementKind, found: list[Law]) -> None:
+        """Note the coefficient of a law in braces that is linear with constants."""
+        port = node.ports[0]
+        if len(node.ports) != 1 or len(found) != 1 or element.kind not in ("R", "C", "I"):
+            return
+        cause, effect = {
+            "R": (port.effort, port.flow), "C": (port.state, port.effort),
+            "I": (port.state, port.flow),
+        }[element.kind]  # fmt: skip
+        own = symbols(found[0].zero)
+        if cause is None or not {cause, effect} <= {*own}:
+            return
+        parts = linear(self.pool, found[0].zero, (cause, effect))
+        if parts is None or parts[0] is self.pool.zero:
+            return
+        coefficient = self.pool.neg(self.pool.div(parts[1], parts[0]))
+        if self.values.constant(coefficient):
+            self.linear_ones.append((node, coefficient))
 
     def hold(self, node: NodeEntry, laws: tuple[Law, ...]) -> None:
         """Refuse a law that a variable of its own element drops out of: e = e*f says e = 0 too."""
@@ -298,10 +337,14 @@ class Laws:
                          f"`{name}`, or let another signal be the coefficient.")  # fmt: skip
 
     def two_port(
-        self, node: NodeEntry, element: ElementKind, found: list[Law], written: Node
+        self, node: NodeEntry, element: ElementKind, read: list[Read], written: Node
     ) -> tuple[Law, ...]:
-        """One stated relation; the other follows from e1*f1 = e2*f2."""
+        """One stated relation; the other follows from e1*f1 = e2*f2.
+
+        Power is looked at before units: relations that do not conserve it have odd ones, too.
+        """
         assert written.law is not None
+        found = [one.law for one in read]
         if len(found) not in (1, 2):
             fail(self.report, "wrong-law-count", f"`{written.type}:{node.name}` needs one relation "
                  f"(the other follows from power conservation), not {len(found)}.",
@@ -321,11 +364,17 @@ class Laws:
                  f"`{{ {names[0]} }}` or `{{ {names[1]} }}`, with any expression for the factor; a "
                  "general two-port is an `R` field with two named ports.")  # fmt: skip
         if len(found) == 2 and not self.same(other, found[1], pairs):
+            help: str | Remedy = "Leave the second one out, it follows from e1*f1 = e2*f2."
+            second = _exchanged(law.origin.text)
+            if second is not None:
+                words = f"What follows from e1*f1 = e2*f2 is `{second}`: write that, or nothing."
+                help = replacing(found[1].origin, second, words)
             fail(self.report, "power-not-conserved", f"The two relations of `{written.type}:"
                  f"{node.name}` do not conserve power: the second does not follow from the first.",
-                 found[1].origin, Label(law.origin, "the first"), help="Leave the second one out, "
-                 "it follows from e1*f1 = e2*f2. What gains or loses power is an `R` field with "
-                 "two named ports.")  # fmt: skip
+                 found[1].origin, Label(law.origin, "the first"), help=help)  # fmt: skip
+        for relation in read:
+            self.one_unit(node, relation)
+        self.conserve(node, law)
         return law, found[1] if len(found) == 2 else other
 
     def follows(self, node: NodeEntry, law: Law, pairs: _Pairs) -> Law | None:
@@ -337,7 +386,6 @@ class Laws:
                 if parts is None:
                     return None
                 # A a + B b = 0 with power a c' = b d' gives A d + B c = 0 (roles exchanged)
-                self.conserve(node, law)
                 zero = self.pool.add(
                     (1, self.pool.mul(parts[0], d)), (1, self.pool.mul(parts[1], c))
                 )
@@ -376,6 +424,21 @@ def linear(pool: Pool, expr: Expr, pair: tuple[Expr, Expr]) -> tuple[Expr, Expr]
     if first is pool.zero or second is pool.zero or not first_degree(expr, pair, choices=False):
         return None
     return first, second
+
+
+def _exchanged(relation: str) -> str | None:
+    """The relation of a two-port that follows from another one, by e1*f1 = e2*f2.
+
+    >>> _exchanged("e1 = k*f2"), _exchanged("f1 = m*f2")
+    ('e2 = k*f1', 'e2 = m*e1')
+    """
+    variable = r"(?<![\w.])[ef][12]\b"
+    own = sorted(set(re.findall(variable, relation)))
+    if len(own) != 2:
+        return None
+    partner = {"e1": "f1", "f1": "e1", "e2": "f2", "f2": "e2"}  # they make a power
+    to = {own[0]: partner[own[1]], own[1]: partner[own[0]]}
+    return re.sub(variable, lambda found: to[found[0]], relation)
 
 
 def _is_zero(expr: object) -> bool:

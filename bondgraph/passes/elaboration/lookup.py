@@ -8,7 +8,7 @@ from typing import NoReturn
 from bondgraph.ir.syntax import Part, Ref
 from bondgraph.library.units import suggest_unit
 from bondgraph.passes.elaboration.build_time import index
-from bondgraph.passes.elaboration.problems import Skip, fail, meant
+from bondgraph.passes.elaboration.problems import Skip, fail, listed, meant, written
 from bondgraph.passes.elaboration.scope import (
     Array,
     Env,
@@ -29,6 +29,13 @@ _TIME = (
     "A model has no time of its own. What is given as a function of time is an `input`; a scenario "
     "of `simulate` says what it is at each t."
 )
+#: What variables of a law are called in books of a domain, where no other one is called so.
+_USUAL = {
+    "q": ("x", "z", "theta", "phi", "Q", "Vol", "vol"),
+    "p": ("lam", "Lambda", "psi", "flux", "P", "L"),
+    "f": ("v", "i", "w", "omega", "I", "vel", "velocity", "current"),
+    "e": ("u", "F", "T", "tau", "M", "torque", "force", "voltage", "pressure"),
+}
 
 
 def unit_meant(origin: Span) -> Remedy | None:
@@ -90,6 +97,13 @@ class Lookup:
                  Label(part.origin, "used as a node"), Label(value.origin, "declared here"),
                  help="Bonds go between junctions, elements, submodels and ports; declare a node "
                  f"with its type, as in `R:{part.name}`.")  # fmt: skip
+        parts = [
+            n for n, e in inside.nodes.items() if isinstance(e, Scope) and e.model.name == part.name
+        ]
+        if parts:
+            fail(self.report, "not-a-node", f"`{part.name}` is a model, not a part of "
+                 f"`{inside.model.name}`.", part.origin, help=written(part.origin, part.name,
+                 parts[0]))  # fmt: skip
         fail(self.report, "unknown-name", f"`{inside.model.name}` has no node `{part.name}`.",
              part.origin, help=meant(part.name, inside.nodes, "Declare it with its type, as in "
              f"`1:{part.name}` or `R:{part.name}`.", part.origin))  # fmt: skip
@@ -130,21 +144,42 @@ class Lookup:
         assert isinstance(entry, ValueEntry)
         return entry
 
-    def no_value(self, ref: Ref, part: Part, inside: Scope, known: tuple[str, ...]) -> NoReturn:
-        """Report that there is no such value."""
+    def no_value(
+        self, ref: Ref, part: Part, inside: Scope, known: tuple[str, ...], own: tuple[str, ...]
+    ) -> NoReturn:
+        """Report that there is no such value; `own` are the variables of the law that it is in."""
         if part.name in inside.wrong or inside.incomplete:
             raise Skip
         node = inside.nodes.get(part.name)
         if node is not None:
+            help = self.signals(node, ref.origin.text)
+            if isinstance(node, NodeEntry) and node.common is not None and len(ref.parts) == 1:
+                letter = "f" if node.type == "1" else "e"
+                help += f" That of the element itself is `{letter}`." if letter in own else ""
             fail(self.report, "not-a-value", f"`{ref.origin.text}` is a node, not a value.",
                  Label(ref.origin, "used as a value"), Label(node.origin, "declared here"),
-                 help=self.signals(node, ref.origin.text))  # fmt: skip
-        unit = unit_meant(ref.origin) if len(ref.parts) == 1 else None
-        fail(self.report, "unknown-name", f"`{inside.model.name}` has no value `{part.name}`.",
-             part.origin, help=unit or meant(part.name, (*known, *inside.values),
-             _TIME if part.name in ("t", "time") else
-             f"Declare it, as in `param {part.name} = 1` or `let {part.name} = ...`.",
-             part.origin))  # fmt: skip
+                 help=help)  # fmt: skip
+        name = part.name
+        what = f"`{inside.model.name}` has no value `{name}`."
+        if len(ref.parts) == 1:
+            unit = unit_meant(ref.origin)
+            if unit is not None:
+                fail(self.report, "unknown-name", what, part.origin, help=unit)
+            usual = next((v for v in own if name in _USUAL.get(v, ())), None)
+            if usual is not None:
+                words = f"Did you mean `{usual}`? The law relates {listed(own)} of the element."
+                fail(self.report, "unknown-name", what, part.origin,
+                     help=replacing(part.origin, usual, words))  # fmt: skip
+        otherwise = f"Declare it, as in `param {name} = 1` or `let {name} = ...`."
+        source, end = part.origin.source, part.origin.end
+        if name in ("t", "time"):
+            otherwise = _TIME
+        elif name == "d" and source.text[end:].lstrip().startswith("/"):
+            otherwise = "A derivative in time is `der(x)`."
+        elif own:
+            otherwise += f" The law itself relates {listed(own)}."
+        fail(self.report, "unknown-name", what, part.origin,
+             help=meant(name, (*known, *inside.values), otherwise, part.origin))  # fmt: skip
 
     @staticmethod
     def signals(node: Named, text: str) -> str:

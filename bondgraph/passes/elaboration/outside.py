@@ -89,6 +89,13 @@ class Outside(Calls):
             self.alike(term, known, origin, f"{what} has the unit of the model")
         return node
 
+    def is_value(self, name: str, place: Place) -> bool:
+        """Whether a parameter of the model is called so."""
+        return name in self.values
+
+    def no_mode(self, ref: Ref, place: Place) -> None:
+        """There are no inputs here."""
+
     def reference(self, ref: Ref, place: Place) -> Typed:
         """The time, pi, or a parameter by its path."""
         name = ref.origin.text.replace(" ", "")

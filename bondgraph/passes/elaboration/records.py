@@ -26,11 +26,19 @@ from bondgraph.passes.elaboration.scope import Bound, NodeEntry, Scope, ValueEnt
 from bondgraph.passes.elaboration.values import Values
 from bondgraph.text.diagnostic import Label
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 Record = TypeVar("Record", Value, Input, Sensor, Let)
 
 #: Longer exact numbers are not worked out.
 _MOST_BITS = 4096
+
+
+class Tolerated(NamedTuple):
+    """A tolerance as a fraction of its value, and where it is written."""
+
+    relative: Fraction
+    origin: Span
 
 
 class Records:
@@ -46,6 +54,7 @@ class Records:
         self.lets: list[tuple[Let, Term | None, str | None]] = []
         self.events: dict[str, Event] = {}
         self.numbers: dict[Expr, Expr | None] = {}
+        self.tolerated: dict[Expr, Tolerated] = {}
         self.deliveries: dict[str, Delivery] = {}  # of controllers, by path
         #: how old what a sensor says is, of those that say it late
         self.ages: dict[Expr, Past] = {}
@@ -94,7 +103,7 @@ class Records:
                 unit = declaration.value.unit
                 # a plain number gets its unit from its use: `own` was made for this copy of it
         self.numbers[symbol] = value
-        tolerance = self.tolerance(declaration.tolerance, value, term)
+        tolerance = self.tolerance(declaration.tolerance, value, term, symbol)
         record = Value(entry.path, symbol, value, tolerance, None, None, False, declaration.doc,
                        entry.origin)  # fmt: skip
         self.params.append((record, term, unit))
@@ -114,18 +123,25 @@ class Records:
         node = item.node
         assert node.declaration is not None
         self.numbers[item.symbol] = item.value
-        tolerance = self.tolerance(node.declaration.tolerance, item.value, item.term)
+        tolerance = self.tolerance(node.declaration.tolerance, item.value, item.term, item.symbol)
         record = Value(item.symbol.symbol.name, item.symbol, item.value, tolerance, None, None,
                        False, node.doc, node.origin)  # fmt: skip
         value = node.declaration.value
         unit = value.unit if isinstance(value, Number) else None
         self.params.append((record, item.term, unit))
 
-    def tolerance(self, written: Tolerance | None, value: Expr | None, term: Term | None
-                  ) -> Fraction | None:  # fmt: skip
+    def tolerance(
+        self, written: Tolerance | None, value: Expr | None, term: Term | None, symbol: Expr
+    ) -> Fraction | None:
         """A relative tolerance; an absolute one is divided by the value."""
         if written is None:
             return None
+        relative = self.relative(written, value, term)
+        self.tolerated[symbol] = Tolerated(relative, written.origin)
+        return relative
+
+    def relative(self, written: Tolerance, value: Expr | None, term: Term | None) -> Fraction:
+        """A tolerance as a fraction of the value."""
         if written.relative:
             return self.values.held(abs(written.quantity.value), written.origin)
         quantity, unit = self.values.number(written.quantity)

@@ -7,6 +7,7 @@ disagree somewhere else. Where they come from is found by trying.
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Callable, Iterator
 
 from bondgraph.ir.syntax import File, Model, Number, Param, Ref
@@ -99,6 +100,8 @@ def _candidates(
         yield from _inverted(model, {s.name.name for s, _ in own})
         yield from (m for at, m in _inverted_numbers(model) if at & places)
         params += own
+    for model in file.models:
+        yield from _turned(model)
     for i, (one, first) in enumerate(params):
         for other, second in params[i + 1 :]:
             if _measures(first) != _measures(second):
@@ -137,6 +140,22 @@ def _inverted_numbers(model: Model) -> Iterator[tuple[set[Span], Mend]]:
             new = f"1/({value.origin.text})"
             places = {node.origin, value.origin}
             yield places, _stiffness(node.origin, node.name.origin, value.origin, new)
+
+
+def _turned(model: Model) -> Iterator[Mend]:
+    """The relation of a transformer by a param with a unit, its two sides exchanged."""
+    units = {s.name.name for s, n in _quantities(model) if _measures(n) != "1"}
+    for node in nodes_of(model.body):
+        if node.type not in ("TF", "MTF") or node.law is None or len(node.law.equations) != 1:
+            continue
+        origin = node.law.equations[0].origin
+        written = origin.text
+        if not units & {*re.findall(r"\w+", written)}:
+            continue
+        other = re.sub(r"\b([ef])([12])\b", lambda f: f"{f[1]}{3 - int(f[2])}", written)
+        name = f"{node.type}:{node.name.name}"
+        words = f"The units agree if `{name}` is turned round: `{{ {other} }}`."
+        yield words, Edit(f"write `{other}`", ((origin, other),))
 
 
 def _quantities(model: Model) -> list[tuple[Param, Number]]:

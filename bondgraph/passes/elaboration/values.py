@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool
@@ -20,7 +21,7 @@ from bondgraph.library.elements import SIGNALS
 from bondgraph.library.units import PI
 from bondgraph.passes.elaboration.bonds import FlatBond, sign
 from bondgraph.passes.elaboration.build_time import references
-from bondgraph.passes.elaboration.calls import Calls
+from bondgraph.passes.elaboration.calls import Calls, form, names
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.lookup import Lookup
 from bondgraph.passes.elaboration.problems import Skip, fail, listed
@@ -35,7 +36,8 @@ from bondgraph.passes.elaboration.scope import (
     Typed,
     ValueEntry,
 )
-from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.diagnostic import Label, Report, replacing
+from bondgraph.text.source import Span
 
 _KINDS = {"param": Kind.PARAM, "const": Kind.CONST}
 
@@ -82,6 +84,24 @@ class Values(Calls):
         assert isinstance(entry, NodeEntry)
         return self.signal(entry, ref, (*rest, part))
 
+    def is_value(self, name: str, place: Place) -> bool:
+        """Whether a value of the model or a variable of the law is called so."""
+        scope = place.scope
+        known = name in scope.values or name in scope.generics or name in place.env
+        return known or name in (place.local or ())
+
+    def no_mode(self, ref: Ref, place: Place) -> None:
+        """Report an input that is used as a condition and not declared as one, once."""
+        entry = place.scope.values.get(ref.parts[0].name)
+        if len(ref.parts) > 1 or not isinstance(entry, ValueEntry):
+            return
+        declaration = entry.declaration
+        if isinstance(declaration, Input) and declaration.unit is None:
+            end = Span(entry.origin.source, entry.origin.end, entry.origin.end)
+            fail(self.report, "not-a-condition", f"The input `{entry.local}` is a number, and a "
+                 "condition where it is used.", entry.origin, help=replacing(end, " : bool",
+                 f"Declare it so: `input {entry.local} : bool`."))  # fmt: skip
+
     def named(self, ref: Ref, part: Part, inside: Scope, place: Place) -> Typed:
         """The value of a name of the value namespace of an instance."""
         entry = self.lookup.value(part, inside, place.scope, place.env)
@@ -100,8 +120,13 @@ class Values(Calls):
         if own and place.local is not None and part.name not in inside.nodes:
             fail(self.report, "wrong-variable", f"This element has no variable `{part.name}`.",
                  ref.origin, help=f"Its law relates {listed(place.local)}.")  # fmt: skip
+        alone = len(ref.parts) == 1 and part.first is None
+        if alone and part.name in names() and part.name not in inside.nodes:
+            fail(self.report, "not-a-value", f"`{part.name}` is a function, not a value.",
+                 ref.origin, help=f"Write what it is taken of in brackets: `{form(part.name)}`."
+                 )  # fmt: skip
         known = tuple(place.env) + tuple(inside.generics)
-        self.lookup.no_value(ref, part, inside, known)
+        self.lookup.no_value(ref, part, inside, known, tuple(place.local or ()))
 
     def signal(self, node: NodeEntry, ref: Ref, parts: tuple[Part, ...]) -> Typed:
         """`x.e`, `x.f`, `x.q`, `x.p`, `gear.f1`, `mic.el.q`."""
@@ -235,10 +260,18 @@ class Values(Calls):
         for entry in entries:
             entry.wrong = True
         names = " needs ".join(f"`{e.local}`" for e in (*entries, entries[0]))
+        help = "Break the circle: an algebraic loop belongs into a law or a junction."
+        if any(re.search(r"\bint\s*\(", e.declaration.origin.text) for e in entries):
+            name = entries[0].local
+            help = (
+                "A signal whose rate depends on itself is a state, and a storage has states: "
+                f"`Sf:rate = ... -> 0:n` with its rate and `n -> C:{name} = 1`; `n.e` is what was "
+                f"meant by `{name}`."
+            )
         self.report.error(
             "circular-definition", f"These names are defined by each other: {names}.",
             *[Label(e.given.origin if e.given else e.origin) for e in entries[:4]],
-            help="Break the circle: an algebraic loop belongs into a law or a junction.",
+            help=help,
         )  # fmt: skip
 
     def needs(self, entry: ValueEntry) -> Iterator[ValueEntry]:
@@ -299,7 +332,10 @@ class Values(Calls):
         """The dimension that a declaration states, or an open one."""
         if declaration.unit is None:
             return self.quantities.dimensions.fresh(entry.origin, entry.local)
-        dimension, _ = self.quantities.unit(declaration.unit, declaration.origin)
+        origin, unit = declaration.origin, declaration.unit
+        start = origin.source.text.index(unit, declaration.name.origin.end)
+        place = Span(origin.source, start, start + len(unit))
+        dimension, _ = self.quantities.unit(unit, place)
         what = f"`{entry.local}` is declared in {declaration.unit}"
         return self.quantities.known(dimension, declaration.origin, what)
 
@@ -309,7 +345,8 @@ class Values(Calls):
         if declaration.unit is None and declaration.value is None:
             raise Skip
         if declaration.unit is None and isinstance(declaration.value, Number):
-            return symbol, self.number(declaration.value)[1]
+            place = Place(entry.scope, entry.env, entry.path)
+            return symbol, self.number(declaration.value, place)[1]
         if declaration.value is None and entry.scope.parent is not None:
             scope = entry.scope
             fail(self.report, "missing-argument", f"`{scope.model.name}` needs a value of "
@@ -348,7 +385,7 @@ class Values(Calls):
             if declaration.unit is not None:
                 own = self.declared(entry, declaration)
             elif isinstance(declaration, Param) and isinstance(declaration.value, Number):
-                own = self.number(declaration.value)[1]
+                own = self.number(declaration.value, Place(entry.scope, entry.env, ""))[1]
             if own is not None:
                 self.alike(own, term, given.origin, f"`{entry.local}` has the unit it is declared "
                            "with")  # fmt: skip

@@ -29,10 +29,12 @@ class Detection:
 
     A fault is over once each residual that has fired is twenty times as probable to be that of a
     healthy machine as one that goes on as it has been while it was out, normal with that mean and
-    deviation (Wald, 1945): two rows for a large fault, some more for a small one. A fault that
-    comes and goes is not told each time: what comes back soon has to be away for twice as long the
-    next time. Nor does a row tell in which the fault that explains all would not show, as where it
-    acts in a part of a motion only; when nothing is out for long, it is over nevertheless.
+    deviation (Wald, 1945): two rows for a large fault, some more for a small one. A row in which
+    one is as far out as an alarm takes speaks against that, however it was before: it may swing. A
+    fault that comes and goes is not told each time: what comes back soon has to be away for twice
+    as long the next time. Nor does a row tell in which the fault that explains all would not show,
+    as where it acts in a part of a motion only; when nothing is out for long, it is over
+    nevertheless.
     """
 
     def __init__(self, residuals: Sequence[str], least: int, learns: bool = True) -> None:
@@ -139,6 +141,8 @@ class Detection:
         if moved is not None:
             seen &= moved | loud
         more = np.where(seen & (self._sum[0] > 0), self._more(excess, limits[:, 5]), 0.0)
+        # few rows do not tell how it goes on: what was out by 5 is no more healthy at -80
+        more = np.where(np.abs(excess) > limits[:, 2], -np.inf, more)
         self._healthy = np.maximum(self._healthy + more, 0.0)
         # what is quiet now is no part of how far out it was, until it is out again
         one, lasting = np.ones_like(excess), self._cusum.excess

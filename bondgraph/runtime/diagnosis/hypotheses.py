@@ -343,6 +343,7 @@ def hypotheses(
     found = []
     for path, nominal in faults.items():
         unit = units.get(path, "")
+        unit = "" if unit == "1" else unit  # a number is written without one
         if nominal is not None:
             if path in engine.parameters:
                 usual = _USUAL * (abs(nominal) or 1.0)

@@ -42,7 +42,9 @@ RIGHT = [
     "let a = --b", "let a = b - -c", "let unknown = 1", "let counts = when",
     "Sf:when -> 1:counts", "1:in when a { }", "input : V", "if { -> r }", "else { -> R:r }",
     "else -> b", "let a = 3 m*x/y", "let a = (b)^(c)", "param d = 3 m +- 1 mm",
-    "let a = 1/s + 1/2",
+    "let a = 1/s + 1/2", "param k = 24 counts/turn", "sensor s : counts = k*x", "param n : counts",
+    "let a = 3 counts - 2 counts", "R:a = 3 counts -> b",
+    "sensor s = 2 counts (n)/turn", "sensor s = 2 counts\nlet a = 1",
 ]  # fmt: skip
 
 #: Bodies of models with one error each.

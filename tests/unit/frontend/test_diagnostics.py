@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bondgraph import errors
+from bondgraph.passes.elaboration.unit_mends import changed
 from bondgraph.text.diagnostic import Diagnostic
 from tests.unit.frontend import corpus
 from tests.unit.frontend.trees import read
@@ -59,6 +60,7 @@ STATEMENTS = [
     ("name-reserved", "param @not = 1"),
     ("counts-per-turn", "sensor s = x counts @24"),
     ("counts-per-turn", "sensor s = x counts @1 + 24/turn"),
+    ("counts-per-turn", "sensor s = x counts @24 counts/turn"),
     ("brace-on-next-line", "1:i\n    @{\n    -> R:x\n    }"),
     ("model-in-model", "@model Q { a -> b }"),
     ("nesting-too-deep", "let x = " + "(" * 99 + "@(1" + ")" * 100),
@@ -67,6 +69,35 @@ STATEMENTS = [
     ("nesting-too-deep", "let x = " + "-" * 99 + "@-1"),
     ("syntax-unexpected", "if a { R:x } else @b"),
     ("syntax-unexpected", "R:x\n    @else { R:y }"),
+    ("input-value", "input U @= 12 V"),
+    ("input-value", "input U[2] : V @= 12 V"),
+    ("input-value", "input on : bool @= true"),
+    ("syntax-unexpected", "param a = 1 Ohm@, b = 2 H, c = 3"),
+    ("syntax-unexpected", "param a@, b"),
+    ("syntax-unexpected", "sensor a = max(1, x.f)@, b = x.f"),
+    ("syntax-unexpected", "input x @y"),
+    ("syntax-unexpected", "R:x { e = R @f }"),
+    ("syntax-unexpected", "R:x { e = 2*(a + b) @(c + d) }"),
+    ("syntax-unexpected", "R:x { e = (a @b)/2 }"),
+    ("syntax-unexpected", "R:x { e = @if f > 0 then f else 2*f }"),
+    ("syntax-unexpected", "let x = if(f > 0) @then f else 2*f"),
+    ("syntax-unexpected", "let x = f @if f > 0 else 2*f"),
+    ("syntax-character", "let x = f > 0 @? f : 2*f"),
+    ("syntax-unexpected", "const g = 9@,81 m/s^2"),
+    ("syntax-character", "let a = v.f@'"),
+    ("syntax-unexpected", "Se:F @- 1:v"),
+    ("syntax-unexpected", "v @-- I:m"),
+    ("syntax-unexpected", "R:x { e = 3*abs @f }"),
+    ("syntax-unexpected", "R:x { e @:= 3*f }"),
+    ("syntax-unexpected", "R:x { e @== 3*f }"),
+    ("syntax-character", "R:x { e = 3*@|f| }"),
+    ("syntax-unexpected", "param x = 3 @[Ohm]"),
+    ("syntax-unexpected", "input on : @boolean"),
+    ("syntax-unexpected", "fault f : R = 3 Ohm @at 2 s"),
+    ("unknown-statement", "@output x = i.f"),
+    ("unknown-statement", "@state x = 1"),
+    ("unknown-statement", "@connect(a, b)"),
+    ("unknown-statement", "@resistor R = 3 Ohm"),
 ]
 FILES = [
     ("empty-file", "@"),
@@ -149,11 +180,59 @@ def test_every_wrong_statement_gets_one_error(body: str) -> None:
 @pytest.mark.parametrize(
     ("line", "remedy"),
     [
-        ("Se:U - > 1:a", "An arrow is written without a space"),
-        ("R:r < - 1:a", "An arrow is written without a space"),
+        ("Se:U - > 1:a", "A bond is an arrow, without a space in it"),
+        ("R:r < - 1:a", "A bond is an arrow, without a space in it"),
         ("Se:U -> Motor:m.el", "`Model:part`, and then its port"),
     ],
 )
 def test_what_was_meant_is_proposed(line: str, remedy: str) -> None:
     _, said = read(f"bg 1\nmodel M {{\n{line}\n}}\n")
     assert remedy in str(said.diagnostics[0].help)
+
+
+@pytest.mark.parametrize(
+    ("line", "mended"),
+    [
+        ("input U = 12 V", ["input U : V", "param U = 12 V"]),
+        ("input U[2] : V = 2*E", ["param U[2] = 2*E"]),
+        ("param a = 1 Ohm, b = 2 H, c = 3", ["param a = 1 Ohm; param b = 2 H; param c = 3"]),
+        ("param a = 1 Ohm b = 2 H", ["param a = 1 Ohm; param b = 2 H"]),
+        ("param a = 1 Ohm param b = 2 H", ["param a = 1 Ohm; param b = 2 H"]),
+        ("param a, b", ["param a; param b"]),
+        ("let a = max(1, b), c = 2", ["let a = max(1, b); let c = 2"]),
+        ("input x, y : V", ["input x; input y : V"]),
+        ("input x y z", ["input x; input y; input z"]),
+        ("R:x { e = R f }", ["R:x { e = R*f }"]),
+        ("R:x { e = (R v.f)/2 }", ["R:x { e = (R*v.f)/2 }"]),
+        ("R:x { e = a[1] (b + c) }", []),
+        ("R:x { e = if f > 0 then R*f else 2*R*f }", ["R:x { e = if(f > 0, R*f, 2*R*f) }"]),
+        ("let x = if (f > 0) then 1 else (2 + y)", ["let x = if((f > 0), 1, (2 + y))"]),
+        ("let x = if f > 0 then 1 elseif f < 1 then 2 else 3", []),
+        ("sensor s = x counts 24 counts/turn", ["sensor s = x counts 24/turn"]),
+        ("const g = 9,81 m/s^2", ["const g = 9.81 m/s^2"]),
+        ("let a = v.f'", ["let a = der(v.f)"]),
+        ("let a = (b + c)'", []),
+        ("import A from 'a.bg'", []),
+        ("Se:F - 1:v", ["Se:F -> 1:v"]),
+        ("Se:F - > 1:v", ["Se:F -> 1:v"]),
+        ("a < - 1:v", ["a <- 1:v"]),
+        ("v -- I:m", ["v -> I:m"]),
+        ("v > I:m", ["v -> I:m"]),
+        ("R:x { e = 3*abs f }", ["R:x { e = 3*abs(f) }"]),
+        ("R:x { e := 3*f }", ["R:x { e = 3*f }"]),
+        ("R:x { e == 3*f }", ["R:x { e = 3*f }"]),
+        ("R:x { e = 3*|f| }", []),
+        ("param x = 3 [N.m/A] +- 5%", ["param x = 3 N.m/A +- 5%"]),
+        ("input on : boolean", ["input on : bool"]),
+        ("fault f : R = 3 Ohm at 2 s", []),
+        ("output y = i.f", ["sensor y = i.f"]),
+        ("connect(a, b)", []),
+    ],
+)
+def test_changes_of_the_text(line: str, mended: list[str]) -> None:
+    """What is proposed as a change, made by hand."""
+    _, said = read(f"bg 1\nmodel M {{\n{line}\n}}\n")
+    (found,) = said.diagnostics
+    assert [changed(found.labels[0].span.source.text, e).split("\n")[2] for e in found.edits] == (
+        mended
+    )

@@ -105,3 +105,25 @@ def test_speed_of_a_body_is_not_divided_by() -> None:
     params = {"Jx": Q(1), "Jy": Q(8, 5), "Jz": Q(21, 10), "c": Q(3, 10)}
     assert is_multiple(c.residuals[0], by_hand, params, ("Tx", "wx", "wy"))
     assert not any(divisors(r.residual.expr) for r in c.residuals)
+
+
+def test_force_of_a_chamber_is_its_pressure_times_its_area() -> None:
+    """Of p = n/(V + A x) both storages are unknown at first: n and V cancel in the force A p."""
+    c = compiled(
+        """model M {
+        param A = 2; param V = 3; param m = 5; param b = 0.5
+        Sf:u -> 0:gas { -> ch.gas; -> De:p }
+        C:ch { port gas; port x
+            gas.e = gas.q/(V + A*x.q)
+            x.e = -A*gas.q/(V + A*x.q) }
+        1:rod { -> I:m; -> R:b; -> Df:v; -> ch.x }
+        }"""
+    )
+
+    def by_hand(A, m, b, p, v):
+        return A * p - b * v - m * D(v)
+
+    relation = next(r for r in c.residuals if "V" not in r.faults)
+    params = {"A": Q(2), "m": Q(5), "b": Q(1, 2)}
+    assert is_multiple(relation, by_hand, params, ("p", "v"))
+    assert divisors(relation.residual.expr) == []

@@ -99,6 +99,17 @@ def test_a_large_fault_is_over_with_two_quiet_rows_and_a_small_one_later() -> No
     assert rows[20.0] <= rows[4.0] < rows[1.5] <= 25
 
 
+def test_a_residual_that_swings_is_not_over_while_it_is_out() -> None:
+    """Below and above zero in turn, unlike before each time, and always far out."""
+    detection = Detection(["r1", "r2"], 3)
+    assert detection.latch(np.array([True, True]))
+    swings = [15.0, -80.0, 210.0, -300.0, 380.0, -420.0, 415.0, -360.0, 280.0, -180.0, 60.0]
+    for value in 3 * swings:
+        detection.row(_row(value, -value / 10), _LIMITS)
+        assert not detection.over(_row(value, -value / 3), _LIMITS)
+    assert _quiet(detection) <= 3
+
+
 def test_what_comes_back_soon_has_to_be_away_for_longer_the_next_time() -> None:
     detection = Detection(["r1", "r2"], 3)
     needed = []
