@@ -32,6 +32,7 @@ _SCALES = tuple(10.0 ** (k / 4.0) for k in range(-16, 9))
 _KEEP = 0.95  # correlation of a fault's change between the ends of a chunk
 _CHUNK = 4  # rows in which the change is taken as a straight line, at least
 _PARTS = 15  # chunks at most
+_SAME = 1e-6  # logarithm of a probability: a smaller difference is rounding
 _LEADS = 8  # faults of which pairs with every other one are looked at
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
 
@@ -297,9 +298,14 @@ class _Fits(NamedTuple):
 
 
 def _compared(own: Sequence[Hypothesis], alone: Sequence[_Fits], every: _Fits | None) -> Explained:
-    """Each hypothesis of a fault by itself, and all at once: one as probable as the other."""
+    """Each hypothesis of a fault by itself, and all at once: one as probable as the other.
+
+    Of hypotheses that are the same on these rows, as an offset and a gain of what is constant, the
+    first one is told.
+    """
     ways = [*alone] if every is None else [*alone, every]
-    best = max(range(len(own)), key=lambda j: float(alone[j].evidence.max()))
+    tops = [float(fits.evidence.max()) for fits in alone]
+    best = next(j for j, top in enumerate(tops) if top >= max(tops) - _SAME)
     hypothesis, chosen = own[best], alone[best]
     change, deviation = (float(x[chosen.top, 0]) * hypothesis.usual
                          for x in (chosen.changes, chosen.deviations))  # fmt: skip

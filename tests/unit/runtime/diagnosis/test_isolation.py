@@ -243,6 +243,19 @@ def test_what_was_there_is_found_with_its_size() -> None:
     assert probabilities(found)["b"] > 0.999
 
 
+def test_of_ways_that_are_the_same_the_first_is_told() -> None:
+    """An offset and a gain of a signal that is constant: roundings do not decide which it is."""
+    draw = np.random.default_rng(6)
+    ways = tuple(Hypothesis("y", kind, "", 1.0, False) for kind in ("offset", "gain"))
+    for more in (-1e-14, 0.0, 1e-14):
+        slopes = np.ones((40, 2, 1))
+        slopes[:, 1] *= 1.0 + more
+        value = 0.8 + draw.normal(size=(40, 1)) * 0.05
+        rows = Rows(value, np.full((40, 1), 1 / 0.05**2), np.zeros((40, 0, 1)), slopes)
+        [found] = explain(rows, ways, History(np.zeros(0)))
+        assert found.hypothesis.kind == "offset" and found.change == pytest.approx(0.8, abs=0.1)
+
+
 def test_a_silent_residual_speaks_against_a_fault_by_what_it_should_have_shown() -> None:
     # both faults move r1 alike; `b` should move r2 too: a lot, or too little to be seen
     for size, certain in ((1.0, True), (1e-4, False)):
