@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import json
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.wander import NONE, Levels, Wander, wander
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.text.source import Source
+
+_MODELS = Path(__file__).parents[4] / "models"
 
 
 def _drawn(seed: int, rows: int, step: float, kept: float = 0.0) -> Array:
@@ -141,3 +145,18 @@ def test_beside_that_a_fault_is_seen_and_is_over_when_it_is_gone() -> None:
         first = next(v.time for v in said if v.event == "fault")
         over = next(v.time for v in said if v.event == "cleared" and v.time > 1000.0)
         assert 700.0 < first < 790.0 and over < 1100.0
+
+
+def test_a_machine_with_tolerances_whose_parameters_move_with_its_switch_has_no_alarm() -> None:
+    """What tolerances do to an oven comes and goes with its heater: neither noise nor a walk."""
+    for seed in (2, 3, 4):
+        c = bondgraph.compile(_MODELS / "oven.bg", rate=10.0)
+        scenario = c.scenario(_MODELS / "scenarios" / "oven_relay.toml")
+        log = c.simulate(scenario._replace(faults=(), seed=seed)).log
+        engine = c.engine()
+        samples = np.column_stack([log.columns[k.path] for k in engine.signals])
+        watch, said = c.diagnosis(engine), []
+        for k in range(0, len(samples), 1000):
+            part = samples[k : k + 1000]
+            said += watch.update(log.time[k : k + 1000], engine.run(part), part)
+        assert not [v for v in said if v.event == "fault"], seed
