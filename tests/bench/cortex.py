@@ -5,11 +5,15 @@ from __future__ import annotations
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
 import bondgraph
 from bondgraph.backends.templates import codegen, fill
+from bondgraph.backends.write import COSTS
+from bondgraph.ir.artifact import Artifact
+from tests.bench import linear_part
 from tests.unit.backends.fixed_models import RANGES
 
 ROOT = Path(__file__).parents[2]
@@ -55,16 +59,20 @@ def measured() -> OnBoard:
     return _measured(bondgraph.compile(ROBOT), M4F, _CALLED)
 
 
-def measured_fixed() -> OnBoard:
-    """The same in whole numbers, on a core without any floating point."""
+def measured_fixed(cut: Callable[[str], str] = str) -> OnBoard:
+    """The same in whole numbers, on a core without floating point; `cut` as in `instructions`."""
     c = bondgraph.compile(ROBOT, real="fixed", ranges=RANGES["khepera"])
-    return _measured(c, M3, _CALLED_FIXED)
+    return _measured(c, M3, _CALLED_FIXED, cut)
 
 
-def _measured(c: bondgraph.Compilation, board: Board, called: list[str]) -> OnBoard:
+def _measured(
+    c: bondgraph.Compilation, board: Board, called: list[str], cut: Callable[[str], str] = str
+) -> OnBoard:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         c.write(folder, targets=["c"])
+        own = folder / "khepera.c"
+        own.write_text(cut(own.read_text(encoding="utf-8")), encoding="utf-8")
         code = [board.defines, "-DKHEPERA_NO_THRESHOLDS", f"-I{folder}"]
         flags = [*board.core.split(), "-O2", "-ffunction-sections", "-fdata-sections", *code]
         start = codegen() / "c" / "costs" / "board.c"
@@ -120,6 +128,16 @@ def report() -> None:
     found = measured_fixed()
     print(
         f"Cortex-M3, fixed point, -O2: {found.instructions:.0f} instructions a step <= 600, "
+        f"{measured_fixed(linear_part.of_fixed).instructions:.0f} of its linear part <= 330, "
         f"{found.text} bytes of code, {found.coefficients} of coefficients in flash, "
         f"{found.memory} of RAM a robot"
     )
+    for real, c in (
+        ("numbers in floating point", bondgraph.compile(ROBOT, costs=True)),
+        ("whole numbers", bondgraph.compile(
+            ROBOT, real="fixed", ranges=RANGES["khepera"], costs=True)),
+    ):  # fmt: skip
+        files = {a.path: a.text for a in c.artifacts if isinstance(a, Artifact)}
+        print(f"With all that is called, and diagnose (<= 120) while well, {real}:")
+        rows = COSTS.findall(files["README.md"])[0].splitlines()
+        print("\n".join(row for row in rows if row.startswith("|")))

@@ -7,7 +7,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+
+from tests.bench import linear_part
 
 ROOT = Path(__file__).parents[2]
 HAND = Path(__file__).parent / "hand"
@@ -15,13 +19,18 @@ SETTLED, STEPS = 1000, 500  # samples after which all filters have settled; that
 FUSED = ("-march=haswell", "-ffp-contract=fast")
 
 
-def build(folder: Path, *options: str) -> Path:
-    """The program that runs either step on the same samples; compiles the robot first."""
+def build(folder: Path, *options: str, cut: Callable[[str], str] = str) -> Path:
+    """The program that runs either step on the same samples; compiles the robot first.
+
+    `cut` makes another step of the generated C.
+    """
     robot = folder / "robot"
     compile_robot = ["-m", "bondgraph", "compile", str(ROOT / "models" / "khepera.bg")]
     command = [sys.executable, *compile_robot, "-o", str(robot)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    sources = [HAND / "main.c", HAND / "step.c", robot / "khepera.c"]
+    own = robot / "khepera.c"
+    own.write_text(cut(own.read_text(encoding="utf-8")), encoding="utf-8")
+    sources = [HAND / "main.c", HAND / "step.c", own]
     program = folder / "step"
     command = ["gcc", "-std=c99", "-O2", *options, f"-I{robot}", f"-I{HAND}", "-o", str(program)]
     subprocess.run([*command, *map(str, sources), "-lm"], check=True)
@@ -48,6 +57,13 @@ def _all(function: str, program: Path, *words: str) -> int:
     return int(found[1])
 
 
+def linear(*options: str, corrected: bool = True) -> float:
+    """Instructions of the linear part of the generated step, see `linear_part`."""
+    with tempfile.TemporaryDirectory() as folder:
+        cut = partial(linear_part.of, corrected=corrected)
+        return counted(build(Path(folder), *options, cut=cut), "generated")
+
+
 def report() -> None:
     """One line for each kind of arithmetic: both counts and their ratio."""
     missing = [tool for tool in ("gcc", "valgrind") if shutil.which(tool) is None]
@@ -62,3 +78,5 @@ def report() -> None:
             f"Step of the five residuals, double, {words}: {own:.0f} instructions, "
             f"by hand {hand:.0f}: {own / hand:.2f}x <= 1.1x"
         )
+        plain, bare = linear(*options), linear(*options, corrected=False)
+        print(f"  its linear part {plain:.0f}, {bare:.0f} without what corrects the hold")

@@ -21,6 +21,7 @@ from tests.bench import (
     generators,
     growth,
     instructions,
+    linear_part,
     peers,
     simulation,
     toolbox,
@@ -53,6 +54,7 @@ def test_a_step_on_the_board_is_small() -> None:
 def test_a_step_in_whole_numbers_is_small() -> None:
     found = cortex.measured_fixed()
     assert found.instructions <= 600 and found.memory <= 120
+    assert cortex.measured_fixed(linear_part.of_fixed).instructions <= 330
 
 
 @pytest.mark.skipif(
@@ -62,6 +64,9 @@ def test_a_step_takes_no_more_than_by_hand(tmp_path: Path) -> None:
     program = instructions.build(tmp_path)
     own, hand = (instructions.counted(program, which) for which in ("generated", "hand"))
     assert own <= 1.1 * hand and own <= 374
+    # 203 and 132 by hand, which had no correction of the hold
+    assert instructions.linear(corrected=False) <= 1.1 * 203
+    assert instructions.linear(*instructions.FUSED, corrected=False) <= 1.1 * 132
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs cc")
