@@ -75,6 +75,20 @@ class _Wanted(NamedTuple):
     read: frozenset[Expr] | None
     turned: bool
 
+    @property
+    def kind(self) -> object:
+        """What trajectories have in common that differ in their random numbers alone."""
+        modes = tuple(self.modes.items())
+        return self.faults, modes, id(self.part), self.solver, self.read, self.turned
+
+
+class _Drawn(NamedTuple):
+    """Where the search for a trajectory begins: what fails before has failed for another one."""
+
+    attempt: int
+    part: Assembly
+    left_out: int
+
 
 class _Declared:
     """The numbers that a model declares, with random ones where it declares none."""
@@ -187,6 +201,7 @@ class Plant:
         self._precision = Precision()
         self._reached: dict[int, frozenset[Expr]] = {}
         self._hopeless: dict[object, str] = {}  # no trajectory was found, and why
+        self._drawn: dict[object, _Drawn] = {}
 
     def apart(self, constants: Iterable[Expr] | None = None) -> Plant:
         """The same plant with some constants (None: all) away from their declared numbers.
@@ -195,7 +210,8 @@ class Plant:
         """
         other = copy(self)
         other._apart = frozenset(self._declared if constants is None else constants)
-        other._samples, other._exponentials, other.momentary, other._hopeless = {}, {}, [], {}
+        other._samples, other._exponentials, other.momentary = {}, {}, []
+        other._hopeless, other._drawn = {}, {}
         return other
 
     def declared_starts(self) -> list[tuple[Expr, Expr, Expr]]:
@@ -229,7 +245,8 @@ class Plant:
         other.held = tuple(initial for initial, state in self._starts.items() if state in starts)
         other._parts, other._cones = None, {}
         other._rational, other._reached = {}, {}
-        other._samples, other._exponentials, other.momentary, other._hopeless = {}, {}, [], {}
+        other._samples, other._exponentials, other.momentary = {}, {}, []
+        other._hopeless, other._drawn = {}, {}
         return other
 
     def numbered(self, expr: Expr) -> list[Expr]:
@@ -307,11 +324,14 @@ class Plant:
         """A trajectory over one kind of numbers, drawn again until all laws can be satisfied.
 
         Where no real one is found, elements of laws that contradict the others are left out: what
-        holds without them holds with them.
+        holds without them holds with them. A machine that could only be drawn at rest, or so, the
+        first time is not tried in motion again: that costs most, and fails as it did.
         """
         failure: Exception | None = None
-        plant, left_out = wanted.part, 0
-        for attempt in range(ATTEMPTS + _STILL * (1 + _LOOSE) if real else _MODULAR):
+        last = ATTEMPTS + _STILL * (1 + _LOOSE) if real else _MODULAR
+        kind = (wanted.kind, real)
+        first, plant, left_out = self._drawn.get(kind, _Drawn(0, wanted.part, 0))
+        for attempt in range(first, last):
             if attempt >= ATTEMPTS + _STILL * (1 + left_out):
                 node = failure.node if isinstance(failure, Contradiction) else -1
                 if node < 0:
@@ -321,7 +341,7 @@ class Plant:
             seed = wanted.seed * ATTEMPTS + attempt
             numbers = self._numbers(seed, attempt if real else None)
             try:
-                return self.draw(
+                found = self.draw(
                     seed,
                     wanted.order,
                     wanted.faults,
@@ -340,8 +360,12 @@ class Plant:
                     read=wanted.read,
                     turned=wanted.turned,
                 )
-            except (Undefined, Contradiction, Singular) as found:
-                failure = found
+            except (Undefined, Contradiction, Singular) as reason:
+                failure = reason
+                continue
+            begin = ATTEMPTS + _STILL * left_out if attempt >= ATTEMPTS else 0
+            self._drawn.setdefault(kind, _Drawn(begin, plant, left_out))
+            return found
         raise ExactUnavailable(self._reason(failure))
 
     def _numbers(self, seed: int, attempt: int | None) -> Numbers:

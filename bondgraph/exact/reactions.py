@@ -7,7 +7,7 @@ fault is found whatever its course.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence, Set
 from functools import partial
 from operator import attrgetter
 from typing import NamedTuple, TypeVar
@@ -43,6 +43,7 @@ _ROUNDS = 4  # so many times as many points where a branch was not met: it may h
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
 _FEW = 8  # faults that are tried one by one where there are branches
 _TRIES = 40  # a point where a square root has no value is drawn again
+_AT_REST = "no point was found at which all its laws hold"
 
 
 class Reactions:
@@ -78,12 +79,18 @@ class Reactions:
             found = _union(found, here) if point else here
         return found
 
-    def sensed(self, exprs: list[Expr], lost: Sequence[Sequence[Expr]] = ()) -> list[set[Expr]]:
+    def sensed(
+        self,
+        exprs: list[Expr],
+        lost: Sequence[Sequence[Expr]] = (),
+        wanted: Set[Expr] | None = None,
+    ) -> list[set[Expr]]:
         """The symbols that each relation reacts to, over enough points to meet every branch.
 
         Where the modes are not given, they take all their values in turn; one in which the plant
         has no behaviour is passed over. `lost` are for each relation symbols that have cancelled
-        out of it. Raises `ExactUnavailable` where the plant has no behaviour at all.
+        out of it. Where only some symbols are `wanted` no others are looked for. Raises
+        `ExactUnavailable` where the plant has no behaviour at all.
         """
         reacts: list[set[Expr]] = [set() for _ in exprs]
         lasting: list[set[Expr]] = [set() for _ in exprs]
@@ -92,6 +99,8 @@ class Reactions:
         unmet = _sides(exprs, settings)
         for point, modes in enumerate(settings * _ROUNDS):
             if point >= len(settings) and not unmet:
+                break
+            if wanted is not None and all(wanted <= seen for seen in lasting):
                 break
             if modes in hopeless:
                 continue
@@ -104,14 +113,15 @@ class Reactions:
             unmet -= met
             for seen, sure, part in zip(reacts, lasting, parts, strict=True):
                 seen.update(s for s, hit in part.depends.items() if hit)
+                sure.update(s for s in seen if s.symbol.kind is not Kind.PARAM)
                 sure.update(part.lasting)
         gone = lost or [()] * len(exprs)
         for seen, sure, expr, others in zip(reacts, lasting, exprs, gone, strict=True):
             # told a parameter that moves, a relation may show what no plant would make it show
-            doubtful = [s for s in seen if s.symbol.kind is Kind.PARAM and s not in sure]
-            seen.difference_update(doubtful)
+            seen.intersection_update(sure)
             unseen = [s for s in dict.fromkeys((*outline(expr).symbols, *others)) if s not in seen]
-            seen.update(self.movers(expr, [s for s in unseen if s in self.faults]))
+            asked = self.faults if wanted is None else wanted
+            seen.update(self.movers(expr, [s for s in unseen if s in asked]))
         return reacts
 
     def movers(
@@ -137,8 +147,13 @@ class Reactions:
     def at_trajectory(
         self, exprs: list[Expr], modes: Mapping[Expr, int] | None, number: int
     ) -> tuple[list[Sensitivity], set[Side]]:
-        """Derivatives of all relations at one healthy trajectory, and the branches it takes."""
+        """Derivatives of all relations at one healthy trajectory, and the branches it takes.
+
+        What a trajectory shows that leaves a law out, the plant may not show.
+        """
         sample = self.plant.sample(exprs, number, terms_needed(exprs), modes=modes)
+        if isinstance(sample, Trajectory) and sample.part is not self.plant.part_for(exprs):
+            raise ExactUnavailable(_AT_REST)
         forward = Forward(exprs, sample)
         found = [sensitivities(expr, sample, forward=forward) for expr in exprs]
         return found, forward.taken(exprs, sample.algebra)
@@ -177,7 +192,7 @@ class Reactions:
             found = evaluate([expr], sample, size)[0]
             moved = sample.algebra.moves(found)
             if isinstance(sample, Trajectory) and sample.still and moved:
-                raise ExactUnavailable("no point was found at which all its laws hold")
+                raise ExactUnavailable(_AT_REST)
             return moved
 
         free = [] if self.modes is not None else modes_of(self.plant.graph, [expr])
@@ -339,24 +354,22 @@ def _apart(
 
     Initial values are among them where `declared` holds states that never leave theirs.
     """
-    hidden = [s for s in outline(expr).symbols if s in declared.faults and s not in seen]
+    unseen = {s for s in outline(expr).symbols if s in declared.faults and s not in seen}
     seed = declared.seed
-    if not hidden:
+    if not unseen:
         return {}
     try:
-        elsewhere = Reactions(plant.apart(), seed).sensed([expr])[0]
-        hidden = [s for s in hidden if s in elsewhere]
-        found: dict[Expr, list[Expr]] = {s: [] for s in hidden}
+        elsewhere = Reactions(plant.apart(), seed).sensed([expr], wanted=unseen)[0]
+        hidden = unseen & elsewhere
+        found: dict[Expr, list[Expr]] = {s: [] for s in outline(expr).symbols if s in hidden}
         held = declared.plant.held
         others = [(start, from_start(plant, seed, start)) for start in held if hidden]
         for constant in plant.numbered(expr) if hidden else []:
             other = plant.apart([constant])
             others.append((constant, from_start(other, seed) if held else other))
         for value, other in others:
-            sees = Reactions(other, seed).sensed([expr])[0]
-            for symbol in hidden:
-                if symbol in sees:
-                    found[symbol].append(value)
+            for symbol in hidden & Reactions(other, seed).sensed([expr], wanted=hidden)[0]:
+                found[symbol].append(value)
     except ExactUnavailable:
         return {}
     return {symbol: tuple(constants) for symbol, constants in found.items()}

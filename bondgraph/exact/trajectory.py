@@ -22,8 +22,9 @@ class Trajectory:
 
     `faults` are the names of the faults that act. `value` gives what a residual is told: readings
     and inputs with their errors, parameters without. `truths` gives what truly happens, `truth`
-    the true series of one symbol. On a `still` one a law is satisfied by a factor that rests, or
-    left out: what does not vanish there may still vanish on the plant.
+    the true series of one symbol. `part` is the machine that it is of, without the laws that were
+    left out. On a `still` one a law is satisfied by a factor that rests, or left out: what does not
+    vanish there may still vanish on the plant.
     """
 
     def __init__(

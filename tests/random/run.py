@@ -41,14 +41,17 @@ class Counted(NamedTuple):
     lines: tuple[str, ...]
 
 
+_SECONDS = 60  # of processor time for one graph
+
+
 def of_seed(seed: int) -> Graph:
     """The graph with a number."""
     return generate(Random(f"graph {seed}"))
 
 
 def verdict(seed: int) -> tuple[int, Verdict]:
-    """What the compiler says about the graph with a number."""
-    return seed, judge(of_seed(seed))
+    """What the compiler says about the graph with a number, and whether it does so in time."""
+    return seed, judge(of_seed(seed), _SECONDS)
 
 
 def counted(verdicts: Iterable[tuple[int, Verdict]]) -> Counted:

@@ -130,6 +130,8 @@ def _at(
             continue
         except (ExactUnavailable, Mixed):
             return None
+        if still.part is not part:  # a law is left out: another machine
+            return None
         return _Point(still, partial(plant.sample, exprs, at, n, modes=modes))
     return None
 

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
 import bondgraph
 from bondgraph.algebra.implicit import invert
-from bondgraph.exact.plant import Plant
+from bondgraph.exact.plant import ATTEMPTS, ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions, branches
+from bondgraph.exact.trajectory import Trajectory
+from bondgraph.field.sparse import Contradiction
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
 from bondgraph.passes.relation.form import relations
 from tests.bench import families
@@ -173,3 +176,28 @@ def test_machines_that_are_alike_begin_differently(monkeypatch: pytest.MonkeyPat
     names = [{s.symbol.name for s in own} for own in seen]
     assert [k for k, own in enumerate(told) if "Rw" in own and "Rw" not in names[k]] == []
     assert sum("Rw" in own for own in told) == 32
+
+
+def test_where_a_law_is_left_out_nothing_is_proved(monkeypatch: pytest.MonkeyPatch) -> None:
+    law = "{ e = k*exp(f) }"
+    graph = compiled(f"model M {{ param k = 2\n 1:j {{ <- Se:u; -> R:r {law}; -> Df:y }} }}").graph
+    plant, draw = Plant(graph), Plant.draw
+    node = next(n for n, node in enumerate(graph.nodes) if node.path == "r")
+    tried: list[bool] = []
+
+    def only_without_the_law(self: Plant, *args: Any, **options: Any) -> Trajectory:
+        tried.append(options["still"])
+        if any(own == node for own, _ in args[5].laws):
+            raise Contradiction(0, node)
+        return draw(self, *args, **options)
+
+    monkeypatch.setattr(Plant, "draw", only_without_the_law)
+    first = plant.trajectory(1, 2)
+    assert len(first.part.laws) == len(plant.assembly.laws) - 1
+    moving = tried.count(False)
+    assert moving == ATTEMPTS
+    second = plant.trajectory(2, 2)  # what failed for the first one is not tried again
+    assert second.part.laws == first.part.laws and tried.count(False) == moving
+    y = next(s.symbol for s in graph.sensors)
+    with pytest.raises(ExactUnavailable):
+        Reactions(plant, 1).at_trajectory([y], None, 1)
