@@ -201,7 +201,7 @@ class Plant:
         self._precision = Precision()
         self._reached: dict[int, frozenset[Expr]] = {}
         self._hopeless: dict[object, str] = {}  # no trajectory was found, and why
-        self._drawn: dict[object, _Drawn] = {}
+        self._drawn: dict[object, _Drawn] = {}  # by the kind of a trajectory, see `_Wanted`
 
     def apart(self, constants: Iterable[Expr] | None = None) -> Plant:
         """The same plant with some constants (None: all) away from their declared numbers.

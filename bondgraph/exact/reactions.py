@@ -43,7 +43,7 @@ _ROUNDS = 4  # so many times as many points where a branch was not met: it may h
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
 _FEW = 8  # faults that are tried one by one where there are branches
 _TRIES = 40  # a point where a square root has no value is drawn again
-_AT_REST = "no point was found at which all its laws hold"
+_NO_POINT = "no point was found at which all its laws hold"
 
 
 class Reactions:
@@ -153,7 +153,7 @@ class Reactions:
         """
         sample = self.plant.sample(exprs, number, terms_needed(exprs), modes=modes)
         if isinstance(sample, Trajectory) and sample.part is not self.plant.part_for(exprs):
-            raise ExactUnavailable(_AT_REST)
+            raise ExactUnavailable(_NO_POINT)
         forward = Forward(exprs, sample)
         found = [sensitivities(expr, sample, forward=forward) for expr in exprs]
         return found, forward.taken(exprs, sample.algebra)
@@ -192,7 +192,7 @@ class Reactions:
             found = evaluate([expr], sample, size)[0]
             moved = sample.algebra.moves(found)
             if isinstance(sample, Trajectory) and sample.still and moved:
-                raise ExactUnavailable(_AT_REST)
+                raise ExactUnavailable(_NO_POINT)
             return moved
 
         free = [] if self.modes is not None else modes_of(self.plant.graph, [expr])
