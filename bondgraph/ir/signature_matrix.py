@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from html import escape
-from itertools import compress
+from itertools import combinations, compress
 from operator import itemgetter
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -243,6 +243,22 @@ class DoubleFaults(NamedTuple):
         """Whether two faults of other groups could look like this one alone, as far as is known."""
         known = bool(self.alike) and any(fault in group for group in self.groups)
         return known and bool(self.like(fault))
+
+    def like_none(self, faults: Iterable[str]) -> bool:
+        """Whether some two of these, each of any course, look like no single fault at all.
+
+        As far as is known: of two faults, whether they do.
+
+        >>> doubles = DoubleFaults((("a", "b"), ("c",), ("d",)), ((), (), ((0, 1),)), "")
+        >>> [doubles.like_none(some) for some in ("ab", "ac", "ad", "abc", "acd")]
+        [False, False, True, False, True]
+        """
+        some = set(faults)
+        own = [k for k, group in enumerate(self.groups) if not some.isdisjoint(group)]
+        mistaken = {
+            pair for alike in self.alike for several in alike for pair in combinations(several, 2)
+        }
+        return bool(self.alike) and any(pair not in mistaken for pair in combinations(own, 2))
 
     def like(self, fault: str) -> tuple[tuple[tuple[str, ...], ...], ...]:
         """Sets of groups: two faults of different groups in a set could look like this one alone.

@@ -76,10 +76,7 @@ def apart(machine: Machine, pair: tuple[Kind, Kind]) -> float:
 def told_by_rank(machine: Machine, pair: tuple[Kind, Kind]) -> bool:
     """Whether two faults, each of any course, look like no single one of any course."""
     doubles = compiled(machine).diagnosis_model.doubles()
-    place = {f: k for k, group in enumerate(doubles.groups) for f in group}
-    own = {place[k.of] for k in pair if k.of in place}
-    several = [set(s) for alike in doubles.alike for s in alike]
-    return len(own) == 2 and bool(doubles.alike) and not any(own <= s for s in several)
+    return doubles.like_none(kind.of for kind in pair)
 
 
 def chosen(machine: Machine, by_rank: bool) -> list[tuple[Kind, Kind]]:

@@ -57,13 +57,18 @@ class Explained(NamedTuple):
 
 
 class ExplainedPair(NamedTuple):
-    """How well two faults at once explain what was seen, each in one way; see `Explained`."""
+    """How well two faults at once explain what was seen, each in one way; see `Explained`.
+
+    Whether it is two, `evidence` says and what is `left`: which two, the evidence of the `whole`,
+    with how they set in.
+    """
 
     hypotheses: tuple[Hypothesis, Hypothesis]
     evidence: float
     changes: tuple[float, float]
     left: float = 0.0
     values: int = 1
+    whole: float = 0.0
 
 
 class Rows(NamedTuple):
@@ -147,7 +152,8 @@ class Evidence:
             own, fit = (case.hypotheses[pair[0]], case.hypotheses[pair[1]]), fits[pair]
             sizes = (fit.changes[fit.top] * [h.usual for h in own]).tolist()
             left = float(fit.left[fit.top]) / self._values
-            two = ExplainedPair(own, _mean(fit.evidence), (sizes[0], sizes[1]), left, self._values)
+            told = _mean(fit.evidence)
+            two = ExplainedPair(own, told, (sizes[0], sizes[1]), left, self._values, told)
             found.append(two)
         return sorted(found, key=lambda pair: -pair.evidence)
 

@@ -11,18 +11,21 @@ from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, as_it_is
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Sizes, hypotheses, sized
-from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
+from bondgraph.runtime.diagnosis.isolation import Explained
 from bondgraph.runtime.diagnosis.naming import (
     LONGEST,
     Judgement,
     Latched,
+    OneOrTwo,
     candidates,
     classes,
     explains,
     fits,
     named,
     news,
-    pairs_left,
+    one_or_two,
+    pairs_that_can,
+    possible,
     suspects,
     update,
 )
@@ -56,9 +59,9 @@ class Judge:
         """The residuals begin anew; the alarm stays."""
         self._compared: Comparison | None = None
         self._after = self._told = 0  # rows since the alarm, and until the last update
-        self._alone = True  # whether one fault is enough to explain what was seen
-        self._pairs: Sequence[ExplainedPair] = ()  # if it is not, two that do
+        self._two = OneOrTwo()  # whether one fault is enough to explain what was seen, or two do
         self._due = 0  # rows since the alarm when that is asked again
+        self._fitted = False  # whether one fault did fit when it was asked
         self._next = _JUDGE  # and when faults are judged again
         self._fired: frozenset[str] = frozenset()  # that the last judgement was of
         self._best: Explained | None = None  # the fault that explains all, if any
@@ -128,8 +131,8 @@ class Judge:
         model = self._model
         self._after = self._told = self._due = 0
         self._next = _JUDGE
-        self._best = None
-        self._alone, self._pairs, sizes = True, (), self._sizes.found()
+        self._best, self._two = None, OneOrTwo()
+        sizes = self._sizes.found()
         found = hypotheses(self._engine, model.faults, model.units, sizes, model.switches)
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
         found = sized(engine, found, model.deliveries, model.nominal, samples)
@@ -204,13 +207,11 @@ class Judge:
             self._compared.follow(most)
         elif self._after < _UNEXPLAINED:
             return None
-        alone = True
-        pairs: Sequence[ExplainedPair] = ()
-        if most is not None and not fits(most) and self._after >= _UNEXPLAINED:
-            alone, pairs = self._alone_or_two(history, levels)
-            sure = sure if alone else ()
-        doubles = model.doubles() if pairs or sure else None
-        verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles, alone)
+        if most is not None and self._after >= _UNEXPLAINED:
+            self._ask_for_two(history, levels, fits(most))
+            sure = sure if self._two.alone else ()
+        doubles = model.doubles() if self._two.pairs or sure else None
+        verdict = update(time, self.latched.since, levels, sure, found, self._two, doubles)
         best = verdict.candidates[0] if verdict.candidates and not verdict.pairs else None
         two = verdict.pairs[0].faults if verdict.pairs else ()
         wanted = Judgement(sure, best and best.fault, two, best and best.size)
@@ -241,20 +242,25 @@ class Judge:
         found = self._compared.explained(history, faults)
         return candidates(found, self._model.faults, self._model.sees, fired)
 
-    def _alone_or_two(
-        self, history: History, fired: Mapping[str, float]
-    ) -> tuple[bool, Sequence[ExplainedPair]]:
-        """Whether one fault is enough, and else the pairs that explain more; asked ever less."""
-        if self._compared is not None and self._after >= self._due:
-            self._due, model = 2 * self._after, self._model
-            try:
-                found = self._explained(history, fired, self._all)
-                alone, pairs = self._compared.pairs(history, found)
-            except np.linalg.LinAlgError:
-                return self._alone, self._pairs
-            alone = candidates(alone, model.faults, model.sees, fired)
-            self._alone = any(fits(e) for e in alone)
-            self._pairs = pairs_left(pairs, alone, model.faults, model.sees, fired)
-            if self._alone:
-                self._pairs = ()
-        return self._alone, self._pairs
+    def _ask_for_two(self, history: History, fired: Mapping[str, float], one: bool) -> None:
+        """See whether two at once explain more than one fault, that fits or not; ever less often.
+
+        Two of those that move what has fired. A fault that fits is enough, unless two are more
+        probable that look like no single fault.
+        """
+        if self._compared is None or (self._after < self._due and one == self._fitted):
+            return
+        self._due, self._fitted, model = 2 * self._after, one, self._model
+        moving = {fault for name in fired for fault in model.sees.get(name, ())}
+        if one and not model.doubles().like_none(moving):
+            self._two = OneOrTwo()
+            return
+        try:
+            found = self._explained(history, fired, [f for f in self._all if f in moving])
+            alone, pairs = self._compared.pairs(history, found)
+        except np.linalg.LinAlgError:
+            return
+        can = {e.fault for e in found if e.evidence > -math.inf}
+        alone = [possible(e, model.faults.get(e.fault)) for e in alone if e.fault in can]
+        pairs = pairs_that_can(pairs, model.faults, model.sees, fired)
+        self._two = one_or_two(alone, pairs, one, model.doubles)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from bondgraph.ir.signature_matrix import DoubleFaults
@@ -44,38 +44,51 @@ def possible(explained: Explained, nominal: float | None) -> Explained:
 
 
 def suspects(
-    faults: Iterable[str], sees: Mapping[str, Sequence[str]], fired: Iterable[str]
+    faults: Iterable[str], sees: Mapping[str, Sequence[str]], fired: Mapping[str, float]
 ) -> list[str]:
     """The faults that every residual sees which has fired; all of them where there is none.
 
+    Noise that is larger than it is taken for is for once above a threshold: what has `fired` by no
+    more than that, in thresholds, is not asked for beside what has by more.
+
     >>> sees = {"r1": ["a", "b"], "r2": ["b", "c"], "r3": ["c"]}
-    >>> [suspects("abc", sees, fired) for fired in (["r1"], ["r1", "r2"], ["r1", "r3"])]
-    [['a', 'b'], ['b'], ['a', 'b', 'c']]
+    >>> [suspects("abc", sees, dict.fromkeys(fired, 2.0)) for fired in (["r1"], ["r1", "r2"])]
+    [['a', 'b'], ['b']]
+    >>> [suspects("abc", sees, {"r1": 2.0, "r3": level}) for level in (2.0, 1.1)]
+    [['a', 'b', 'c'], ['a', 'b']]
     """
-    every, seen = list(faults), [set(sees.get(name, ())) for name in fired]
-    return [f for f in every if all(f in own for own in seen)] or every
+    every, loud = list(faults), _loud(fired)
+    return [f for f in every if all(f in sees.get(name, ()) for name in loud)] or every
 
 
 def candidates(
     found: Sequence[Explained],
     faults: Mapping[str, float | None],
     sees: Mapping[str, Sequence[str]],
-    fired: Iterable[str],
+    fired: Mapping[str, float],
 ) -> list[Explained]:
     """With no evidence for what cannot be: see `possible`; nor can what a fired residual sees not.
 
     Evidence alone is of magnitudes, and where no fault fits well the one that spoils least may
-    leave such a residual unexplained. Where no fault is seen by all that have fired, none is ruled
-    out by that. `faults` are nominal values, `sees` the faults of each residual.
+    leave such a residual unexplained. Of a fault that fits only what is loud has to be seen, as in
+    `suspects`. Where no fault is seen by all that have fired, none is ruled out by that. `faults`
+    are nominal values, `sees` the faults of each residual.
     """
     left = [possible(e, faults.get(e.fault)) for e in found]
-    seen = [set(sees.get(name, ())) for name in fired]
-    whole = [all(e.fault in own for own in seen) for e in left]
+    loud = _loud(fired)
+    whole = [
+        all(e.fault in sees.get(name, ()) for name in (loud if fits(e) else fired)) for e in left
+    ]
     if not any(good and e.evidence > -math.inf for good, e in zip(whole, left, strict=True)):
         return left
     return [
         e if good else e._replace(evidence=-math.inf) for good, e in zip(whole, left, strict=True)
     ]
+
+
+def _loud(fired: Mapping[str, float]) -> list[str]:
+    """What has fired by more than `_LARGER` noise does, or all where nothing has."""
+    return [name for name, level in fired.items() if level * level > _LARGER] or list(fired)
 
 
 class Judgement(NamedTuple):
@@ -190,27 +203,55 @@ def named(
     return (leads if sure else ()), leads
 
 
-def pairs_left(
-    found: Sequence[ExplainedPair],
+class OneOrTwo(NamedTuple):
+    """Whether a single fault is enough for what was seen, and `alone` may be named.
+
+    If it is not, `pairs` are those that are, the best one first, none where these are not either.
+    `perhaps` says that of the faults that look like no single one two may be it all the same.
+    """
+
+    alone: bool = True
+    pairs: Sequence[ExplainedPair] = ()
+    perhaps: bool = False
+
+
+def one_or_two(
     alone: Sequence[Explained],
+    pairs: Sequence[ExplainedPair],
+    one: bool,
+    doubles: Callable[[], DoubleFaults],
+) -> OneOrTwo:
+    """How probable two faults at once are beside one `alone`; of `one` it is known that it fits.
+
+    Two at once are rarer, and how a fault sets in and goes on is not known: where a single fault
+    fits, two that look like some single one are not asked for.
+    """
+    least = max((e.evidence for e in alone), default=-math.inf) + _RARER
+    left = [pair for pair in pairs if pair.evidence >= least and fits(pair)]
+    if not (one or any(fits(e) for e in alone)):
+        return OneOrTwo(False, left)
+    near = [p for p in pairs if p.evidence >= least + math.log(_SHOWN) and fits(p)]
+    told = [p for p in near if doubles().like_none(h.fault for h in p.hypotheses)]
+    if any(pair.evidence >= least for pair in told):
+        return OneOrTwo(False, left)
+    return OneOrTwo(True, (), bool(told))
+
+
+def pairs_that_can(
+    found: Sequence[ExplainedPair],
     faults: Mapping[str, float | None],
     sees: Mapping[str, Sequence[str]],
     fired: Iterable[str],
 ) -> list[ExplainedPair]:
-    """The pairs that explain as much as is asked of a single fault, and more than any does `alone`.
-
-    Without what cannot be, as `candidates`: what has fired has to be seen by one of both.
-    """
+    """Without the pairs that cannot be, as `candidates`: what has fired one of both has to move."""
     seen = [set(sees.get(name, ())) for name in fired]
-    least = max((e.evidence for e in alone), default=-math.inf) + _RARER
     left = []
     for pair in found:
         own = {h.fault for h in pair.hypotheses}
         each = [Explained(h.fault, 0.0, h, change, 0.0)
                 for h, change in zip(pair.hypotheses, pair.changes, strict=True)]  # fmt: skip
         can = all(possible(e, faults.get(e.fault)).evidence == 0.0 for e in each)
-        more = pair.evidence >= least and fits(pair)
-        if can and more and not any(own.isdisjoint(s) for s in seen):
+        if can and not any(own.isdisjoint(s) for s in seen):
             left.append(pair)
     return left
 
@@ -240,24 +281,23 @@ def update(
     levels: Mapping[str, float],
     group: tuple[str, ...],
     found: Sequence[Explained],
-    pairs: Sequence[ExplainedPair] = (),
+    two: OneOrTwo,
     doubles: DoubleFaults | None = None,
-    alone: bool = True,
 ) -> Verdict:
     """What there is to say: the class that is named, if any, and what else it could be.
 
-    `alone` says whether one fault is enough to explain what was seen. `pairs` are those that
-    explain what no single fault does, the best one first; `doubles` tells which of them nothing
-    tells apart, and whether what is named could be two others.
+    `doubles` tells which pairs of `two` nothing tells apart, and whether what is named could be two
+    others.
     """
+    pairs = two.pairs
     chance = probabilities(found)
     shown = sorted((e for e in found if chance[e.fault] >= _SHOWN),
                    key=lambda e: (-chance[e.fault], e.fault))  # fmt: skip
     candidates = tuple(candidate(e, chance[e.fault]) for e in shown)
     verdict = Verdict("update", time, since, dict(levels), group, candidates)
-    if explains(found) and candidates and alone and not pairs:
+    if explains(found) and candidates and two.alone and not pairs:
         message = described(verdict)
-        if group and doubles is not None and doubles.looks_like_two(group[0]):
+        if group and (two.perhaps or (doubles is not None and doubles.looks_like_two(group[0]))):
             message += "; or two others at once"
         return verdict._replace(message=message)
     if not pairs:
@@ -274,7 +314,7 @@ def update(
 
 
 def _shown(pairs: Sequence[ExplainedPair]) -> tuple[Pair, ...]:
-    weights = [math.exp(max(pair.evidence - pairs[0].evidence, -700.0)) for pair in pairs]
+    weights = [math.exp(max(pair.whole - pairs[0].whole, -700.0)) for pair in pairs]
     found = []
     for pair, weight in zip(pairs, weights, strict=True):
         chance = weight / sum(weights)

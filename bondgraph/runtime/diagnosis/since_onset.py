@@ -167,13 +167,18 @@ class SinceOnset:
         """How well each fault explains the rows and how well two at once do, to be compared.
 
         Two of the `singles`, each with its onset and size. How a fault sets in is not known:
-        whether one is enough does not hang on that.
+        whether one is enough does not hang on that. But which two it is, and how large they are, is
+        known best with it: some show only then.
         """
         rows, (others,) = self._weighed([self._others])
+        which = Evidence(rows, history).pairs(Case(self._all, rows.slopes, others), singles)
         for one in (rows, *others.values()):
             one.weight[:] = 1.0 / (inverse(one.weight) + _early(one.value, 1.0))
         evidence, case = Evidence(rows, history), Case(self._all, rows.slopes, others)
-        return evidence.explained([case])[0], evidence.pairs(case, singles)
+        later = {pair.hypotheses: pair for pair in evidence.pairs(case, singles)}
+        found = [later[two.hypotheses]._replace(changes=two.changes, whole=two.whole)
+                 for two in which]  # fmt: skip
+        return evidence.explained([case])[0], found
 
     def _found(self, history: History) -> tuple[Evidence, list[Explained]]:
         """How well each fault explains the rows as they are known now, and what tells that."""

@@ -23,7 +23,7 @@ from bondgraph.runtime.diagnosis.isolation import (
     explain,
     probabilities,
 )
-from bondgraph.runtime.diagnosis.naming import named, update
+from bondgraph.runtime.diagnosis.naming import OneOrTwo, named, update
 from bondgraph.runtime.diagnosis.rows import Row
 
 _SCALES = [1e-4 * 10.0 ** (k / 4.0) for k in range(25)]
@@ -310,7 +310,7 @@ def test_where_each_fault_is_impossible_none_is_probable() -> None:
     one = Hypothesis("a", "value", "", 1.0, True)
     found = [Explained(f, -math.inf, one._replace(fault=f), 0.0, 0.0) for f in "ab"]
     assert probabilities(found) == {"a": 0.0, "b": 0.0}
-    verdict = update(1.0, 0.5, {"r1": 2.0}, (), found)
+    verdict = update(1.0, 0.5, {"r1": 2.0}, (), found, OneOrTwo())
     assert verdict.candidates == () and verdict.message.startswith("no single fault")
     assert named(found, [("a",), ("b",)])[0] == ()
     sure = [found[0]._replace(evidence=30.0), found[1]]
