@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 
 import pytest
 
 from bondgraph.runtime.diagnosis.calibration import Tuned
+from bondgraph.runtime.simulation.scenario import Fault
 from tests.measured import measured
 from tests.robots import campaign
 from tests.robots.campaign import KINDS, ONSET, Seen
@@ -41,6 +43,16 @@ def test_a_fault_of_three_times_the_smallest_size_is_found_and_named(number: int
     assert found.alarms == 0
     assert found.delay is not None and found.delay < 1.0
     assert found.last == groups[KINDS[number].target]
+
+
+def test_an_encoder_that_misses_counts_behind_a_dead_zone_has_its_true_size() -> None:
+    # one count of 5 714: wherever the size is looked for from, the play of the gear hides a part;
+    # the other encoder with as many counts too much moves the torsion between them as much
+    lost = Fault("m[1].motor", "*=", 1.0 - 1.75e-4, ONSET, math.inf, 0.0, 0.0, 1.0, "encoder")
+    said = campaign.watched(campaign.errands(4, ONSET + 12.0, lost), _tuned().tuning)
+    last = [v for v in said if v.event == "update"][-1].candidates[0]
+    expected = {"m[1].motor": -0.0175, "m[1].wheel": 0.0175}[last.fault]
+    assert last.unit == "%" and last.size == pytest.approx(expected, rel=0.05)
 
 
 def test_the_sample_on_the_page_is_what_is_measured_now() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
@@ -27,14 +28,14 @@ _SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0)
 MOST = 600  # rows that are compared: by then it is known as well as it will be
 _WAIT = 8  # rows that are run at once, unless somebody asks before
 BENT = 80  # rows with whose samples onsets and sizes are looked for, while there are no more
-_ROUNDS = 8  # of looking for them
+_ROUNDS = 12  # of looking for a size
 _SMALL = 1e-5  # of the usual change: for less a tangent does
 _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
 _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
 _BEHIND = 30.0  # evidence that a fault may lack and still be worth another onset
-_SAME = 0.01  # share by which changes of two rounds may differ
-_STILL = 1e-3  # less than that, and the secant is the same as before
-_STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
+_STEP, _FINE = 2.0, 1.03  # factors between sizes that are compared, at first and at last
+_HUGE = 1e100  # a slope beyond it is that of a law that has run over
+_FLAT = 0.01  # evidence that is none: a size does no more than it does as a tangent
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
@@ -56,6 +57,14 @@ class _Begun(NamedTuple):
     bank: Bank
     bent: Mapping[int, float]
     held: Mapping[int, tuple[Instead, list[Rows]]]
+
+
+class _Sized(NamedTuple):
+    """The most probable change of a hypothesis so far, None for a tangent, and its slopes."""
+
+    evidence: float
+    change: float | None
+    begun: _Begun | None = None  # None as long as these are the slopes of the rows
 
 
 class SinceOnset:
@@ -102,7 +111,8 @@ class SinceOnset:
         before, begin = self._onset(0)
         self._bank = self._banked(before, [self._all[k] for k in self._sized], begin, {})
         self._instead: dict[int, Instead] = {}
-        self._try(dict.fromkeys(range(len(self._all)), 0), {})
+        held = [k for k, h in enumerate(self._all) if h.held is not None]
+        self._take(self._begun(held, 0, {}), held)
 
     def step(self, row: Row, sigma: Array) -> None:
         """One more row, and the noise (standard deviations) of its residuals."""
@@ -142,24 +152,13 @@ class SinceOnset:
         if self._known is not None:
             return self._known
         if not len(self._past) == len(self._rows) >= self._again:
-            found = self._found(history)[1]
+            found = self._found(history)
             self._known = found if len(self._rows) == MOST else None
             return found
-        self._dated(history, self._found(history)[1] if self._again else ())
-        evidence, found = self._found(history)
-        self._again = 2 * len(self._rows)
-        before: dict[int, tuple[float, float]] = {}
-        for _ in range(_ROUNDS):
-            wanted, changes = self._bent(found), self._changes()
-            if _alike(wanted, {k: changes[k] for k in wanted if k in changes}):
-                break
-            tried = {k: (changes.get(k, 0.0), change) for k, change in wanted.items()}
-            earlier = {k: own for k, (own, _) in self._tried.items()}
-            fresh = {k: self._next(k, before.get(k), tried[k]) for k in wanted}
-            moved = self._try(earlier, {**changes, **fresh})
-            again = {one.fault: one for one in self._anew(evidence, moved)}
-            found, before = [again.get(one.fault, one) for one in found], tried
-        return found
+        self._dated(history, self._found(history) if self._again else ())
+        self._again = 3 * len(self._rows) // 2
+        self._bend(history)
+        return self._found(history)
 
     def pairs(
         self, history: History, singles: Sequence[Explained]
@@ -180,20 +179,10 @@ class SinceOnset:
                  for two in which]  # fmt: skip
         return evidence.explained([case])[0], found
 
-    def _found(self, history: History) -> tuple[Evidence, list[Explained]]:
-        """How well each fault explains the rows as they are known now, and what tells that."""
+    def _found(self, history: History) -> list[Explained]:
+        """How well each fault explains the rows as they are known now."""
         rows, (others,) = self._weighed([self._others])
-        evidence = Evidence(rows, history)
-        return evidence, evidence.explained([Case(self._all, rows.slopes, others)])[0]
-
-    def _anew(self, evidence: Evidence, moved: Sequence[int]) -> list[Explained]:
-        """The same of the faults of hypotheses whose slopes have changed since then."""
-        faults = {self._all[k].fault for k in moved}
-        own = [k for k, one in enumerate(self._all) if one.fault in faults]
-        rows, (others,) = self._weighed([self._others])
-        others = {own.index(k): other for k, other in others.items() if k in own}
-        case = Case([self._all[k] for k in own], rows.slopes[:, own], others)
-        return evidence.explained([case])[0]
+        return Evidence(rows, history).explained([Case(self._all, rows.slopes, others)])[0]
 
     def _weighed(
         self, cases: Sequence[Mapping[int, Sequence[Rows]]]
@@ -271,18 +260,6 @@ class SinceOnset:
         """What slopes are secants up to, where they are."""
         return {k: change for k, (_, change) in self._tried.items() if change is not None}
 
-    def _try(self, earlier: Mapping[int, int], changes: Mapping[int, float]) -> list[int]:
-        """The rows again of those that begin at another moment, or have another change, than now.
-
-        Slopes go as far as the changes. Returns the numbers of these hypotheses.
-        """
-        wanted = {k: (own, changes.get(k)) for k, own in earlier.items()}
-        moved = [k for k, one in wanted.items() if not _same(one, self._tried.get(k))]
-        for onset in dict.fromkeys(earlier[k] for k in moved):
-            own = [k for k in moved if earlier[k] == onset]
-            self._take(self._begun(own, onset, changes), own)
-        return moved
-
     def _begun(self, own: Sequence[int], onset: int, changes: Mapping[int, float]) -> _Begun:
         """Let hypotheses, by their numbers, begin at an onset, and have the changes."""
         before, begin = self._onset(onset)
@@ -346,26 +323,59 @@ class SinceOnset:
             self._squares += np.square(slopes[:left]).sum(axis=0)
             self._past += rows[: max(0, BENT - len(self._past))]
 
-    def _bent(self, found: Sequence[Explained]) -> dict[int, float]:
-        """Changes that are large and clear enough for a secant, by number of the hypothesis."""
-        changes = {}
-        for one in found:
-            size = abs(one.change)
-            least = max(_SMALL * one.hypothesis.usual, _CLEAR * one.deviation)
-            if least <= size < np.inf and one.hypothesis.held is None:
-                k = self._all.index(one.hypothesis)
-                changes[k] = self._within(k, one.change)
-        return changes
+    def _bend(self, history: History) -> None:
+        """Let each hypothesis have the size with which it makes what was seen most probable.
 
-    def _next(self, k: int, before: tuple[float, float] | None, now: tuple[float, float]) -> float:
-        """The change to try next, from what was tried and what came of it (Steffensen)."""
-        change, wanted = now
-        if before is not None and before[0] != change:
-            slope = (wanted - before[1]) / (change - before[0])
-            found = (wanted - slope * change) / (1.0 - slope) if abs(slope) <= _STEEP else wanted
-            if abs(found) >= _SMALL * self._all[k].usual:
-                wanted = found
-        return self._within(k, wanted)
+        Where laws are bent what it does depends on its size. A size that is only the one that
+        follows from what it does at that size may be one of several: a dead zone hides half of a
+        fault. So the most probable one is looked for, in steps of its logarithm up and down, ever
+        smaller ones (Hooke and Jeeves, 1961); of those that are far from the most probable fault
+        the first one has to do.
+        """
+        rows, _ = self._weighed([])
+        evidence = Evidence(rows, history)
+        cases = [Case([self._all[k]], rows.slopes[:, [k]]) for k in self._sized]
+        now = {k: one for k, (one,) in zip(self._sized, evidence.explained(cases), strict=True)}
+        wanted = {k: one.change for k, one in now.items() if _is_clear(one)}
+        best = {k: _Sized(one.evidence, self._tried[k][1]) for k, one in now.items()}
+        best |= {k: _Sized(-math.inf, None) for k in wanted if best[k].change is None}
+        self._larger(evidence, best, wanted)
+        top = max((one.evidence for one in best.values()), default=0.0)
+        steps = {k: _STEP for k in wanted if best[k].evidence >= top - _BEHIND}
+        for _ in range(_ROUNDS):
+            steps = {k: step for k, step in steps.items() if step > _FINE}
+            at = {k: best[k].change or wanted[k] for k in steps}
+            before = {k: best[k].evidence for k in steps}
+            tried = [self._larger(evidence, best, {k: at[k] * steps[k] ** way for k in steps})
+                     for way in (1, -1)]  # fmt: skip
+            for k, step in steps.items():
+                if all(abs(own[k] - before[k]) <= _FLAT for own in tried):
+                    steps[k] = 1.0  # the law is straight
+                elif best[k].evidence <= before[k]:
+                    steps[k] = math.sqrt(step)
+        for begun in {id(one.begun): one.begun for one in best.values() if one.begun}.values():
+            self._take(begun, [k for k, one in best.items() if one.begun is begun])
+
+    def _larger(
+        self, evidence: Evidence, best: dict[int, _Sized], changes: Mapping[int, float]
+    ) -> dict[int, float]:
+        """The evidence of hypotheses with other changes, and what is `best` where it is more.
+
+        Where the laws have no value with a change, it has none.
+        """
+        found = dict.fromkeys(changes, -math.inf)
+        changes = {k: self._within(k, change) for k, change in changes.items()}
+        for onset in dict.fromkeys(self._tried[k][0] for k in changes):
+            own = [k for k in changes if self._tried[k][0] == onset]
+            begun = self._begun(own, onset, changes)
+            sound = {k: at for at, k in enumerate(own)
+                     if (np.abs(begun.slopes[:, at]) < _HUGE).all()}  # fmt: skip
+            cases = [Case([self._all[k]], begun.slopes[:, [at]]) for k, at in sound.items()]
+            for k, (one,) in zip(sound, evidence.explained(cases) if cases else (), strict=True):
+                found[k] = one.evidence
+                if one.evidence > best[k].evidence + _FLAT:
+                    best[k] = _Sized(one.evidence, begun.bent.get(k), begun)
+        return found
 
     def _within(self, k: int, change: float) -> float:
         """The change, of a parameter only as far as it keeps its sign and size."""
@@ -410,24 +420,14 @@ def _joined(rows: Sequence[tuple[Row, Array]]) -> tuple[Array, list[int]]:
     return np.concatenate([row.samples for row, _ in rows]), [end - 1 for end in ends]
 
 
-def _same(wanted: tuple[int, float | None], tried: tuple[int, float | None] | None) -> bool:
-    """Whether an onset and a change are those that were tried already, or hardly others."""
-    if tried is None or wanted[0] != tried[0]:
-        return False
-    left, right = wanted[1], tried[1]
-    return left is right or (
-        left is not None and right is not None and abs(left - right) <= _STILL * abs(left)
-    )
+def _is_clear(one: Explained) -> bool:
+    """Whether a change is large and clear enough for a secant."""
+    least = max(_SMALL * one.hypothesis.usual, _CLEAR * one.deviation)
+    return least <= abs(one.change) < math.inf
 
 
 def _stacked(rows: Sequence[Rows]) -> Rows:
     return Rows(*[np.array(x) for x in zip(*rows, strict=True)])
-
-
-def _alike(left: Mapping[int, float], right: Mapping[int, float]) -> bool:
-    return left.keys() == right.keys() and all(
-        abs(left[k] - right[k]) <= _SAME * abs(left[k]) for k in left
-    )
 
 
 def _early(values: Array, error: float) -> Array:
