@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from itertools import accumulate
+from itertools import accumulate, product
 from types import MappingProxyType
 
 import numpy as np
@@ -139,13 +139,28 @@ class Evidence:
     def pairs(self, case: Case, singles: Sequence[Explained]) -> list[ExplainedPair]:
         """How well two faults at once explain the rows, the best pair first.
 
-        Each fault acts in the way in which it explains most alone, if that has a size, and one of
-        both is among those that explain most so: the first step of a search that adds one fault at
-        a time. Two faults have the same scales, and the prior of one.
+        Each fault acts in any way that has a size, and one of both is among those that explain most
+        alone: the first step of a search that adds one fault at a time. Two faults have the same
+        scales, and the prior of one.
         """
-        leads = sorted((e for e in singles if e.hypothesis.held is None), key=lambda e: -e.evidence)
-        place = [case.hypotheses.index(e.hypothesis) for e in leads]
-        pairs = [(a, b) for at, a in enumerate(place[:_LEADS]) for b in place[at + 1 :]]
+        leads = sorted(singles, key=lambda e: -e.evidence)
+        ways = _by_fault(case)
+        place = [
+            [j for j in ways.get(e.fault, ()) if case.hypotheses[j].held is None] for e in leads
+        ]
+        pairs = [
+            pair
+            for at, own in enumerate(place[:_LEADS])
+            for others in place[at + 1 :]
+            for pair in product(own, others)
+        ]
+        found: dict[tuple[str, ...], ExplainedPair] = {}
+        for two in sorted(self.both(case, pairs), key=lambda two: -two.evidence):
+            found.setdefault(tuple(h.fault for h in two.hypotheses), two)
+        return list(found.values())
+
+    def both(self, case: Case, pairs: Sequence[tuple[int, int]]) -> list[ExplainedPair]:
+        """How well two hypotheses at once explain the rows, by their numbers, in this order."""
         fits = self._fits([case], pairs)
         found = []
         for pair in pairs:
@@ -155,7 +170,7 @@ class Evidence:
             told = _mean(fit.evidence)
             two = ExplainedPair(own, told, (sizes[0], sizes[1]), left, self._values, told)
             found.append(two)
-        return sorted(found, key=lambda pair: -pair.evidence)
+        return found
 
     def _fits(
         self, cases: Sequence[Case], sets: Sequence[Sequence[int]]

@@ -256,11 +256,12 @@ class Judge:
             self._two = OneOrTwo()
             return
         try:
-            found = self._explained(history, fired, [f for f in self._all if f in moving])
+            found = self._compared.explained(history, [f for f in self._all if f in moving])
             alone, pairs = self._compared.pairs(history, found)
         except np.linalg.LinAlgError:
             return
-        can = {e.fault for e in found if e.evidence > -math.inf}
+        whole = candidates(found, model.faults, model.sees, fired)
+        can = {e.fault for e in whole if e.evidence > -math.inf}
         alone = [possible(e, model.faults.get(e.fault)) for e in alone if e.fault in can]
         pairs = pairs_that_can(pairs, model.faults, model.sees, fired)
         self._two = one_or_two(alone, pairs, one, model.doubles)

@@ -34,6 +34,7 @@ _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
 _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
 _BEHIND = 30.0  # evidence that a fault may lack and still be worth another onset
 _STEP, _FINE = 2.0, 1.03  # factors between sizes that are compared, at first and at last
+_PAIRS, _TOGETHER = 8, 4  # pairs whose sizes are looked for, and how often
 _HUGE = 1e100  # a slope beyond it is that of a law that has run over
 _FLAT = 0.01  # evidence that is none: a size does no more than it does as a tangent
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
@@ -65,6 +66,13 @@ class _Sized(NamedTuple):
     evidence: float
     change: float | None
     begun: _Begun | None = None  # None as long as these are the slopes of the rows
+
+
+class _Both(NamedTuple):
+    """Two at once, with what they do in these sizes."""
+
+    two: ExplainedPair
+    case: Case
 
 
 class SinceOnset:
@@ -170,14 +178,42 @@ class SinceOnset:
         known best with it: some show only then.
         """
         rows, (others,) = self._weighed([self._others])
-        which = Evidence(rows, history).pairs(Case(self._all, rows.slopes, others), singles)
+        whole, case = Evidence(rows, history), Case(self._all, rows.slopes, others)
+        found = whole.pairs(case, singles)
+        near = sum(two.evidence >= found[0].evidence - _BEHIND for two in found[:_PAIRS])
+        bent = [self._both(whole, rows, two) for two in found[:near]]
         for one in (rows, *others.values()):
             one.weight[:] = 1.0 / (inverse(one.weight) + _early(one.value, 1.0))
-        evidence, case = Evidence(rows, history), Case(self._all, rows.slopes, others)
-        later = {pair.hypotheses: pair for pair in evidence.pairs(case, singles)}
-        found = [later[two.hypotheses]._replace(changes=two.changes, whole=two.whole)
-                 for two in which]  # fmt: skip
-        return evidence.explained([case])[0], found
+        evidence = Evidence(rows, history)
+        later = [two for own in bent for two in evidence.both(own.case, [(0, 1)])]
+        later += evidence.both(case, [self._numbers(two) for two in found[near:]])
+        found[:near] = [own.two for own in bent]
+        found = [again._replace(changes=two.changes, whole=two.whole)
+                 for again, two in zip(later, found, strict=True)]  # fmt: skip
+        return evidence.explained([case])[0], sorted(found, key=lambda two: -two.whole)
+
+    def _numbers(self, two: ExplainedPair) -> tuple[int, int]:
+        return self._all.index(two.hypotheses[0]), self._all.index(two.hypotheses[1])
+
+    def _both(self, evidence: Evidence, rows: Rows, two: ExplainedPair) -> _Both:
+        """Two at once with slopes up to the sizes that they have beside each other.
+
+        That is not the size with which one of them explains most alone. Without the samples behind
+        the rows it is all that is known.
+        """
+        own = self._numbers(two)
+        best = _Both(two, Case(two.hypotheses, rows.slopes[:, own]))
+        for _ in range(_TOGETHER if len(self._past) == len(self._rows) else 0):
+            changes = self._secants(dict(zip(own, best.two.changes, strict=True)))
+            anew = [self._begun([k], self._tried[k][0], changes).slopes for k in own]
+            case = Case(two.hypotheses, np.concatenate(anew, axis=1))
+            if not (np.abs(case.slopes) < _HUGE).all():
+                break
+            (again,) = evidence.both(case, [(0, 1)])
+            if again.evidence <= best.two.evidence + _FLAT:
+                break
+            best = _Both(again, case)
+        return best
 
     def _found(self, history: History) -> list[Explained]:
         """How well each fault explains the rows as they are known now."""
@@ -364,7 +400,7 @@ class SinceOnset:
         Where the laws have no value with a change, it has none.
         """
         found = dict.fromkeys(changes, -math.inf)
-        changes = {k: self._within(k, change) for k, change in changes.items()}
+        changes = self._secants(changes)
         for onset in dict.fromkeys(self._tried[k][0] for k in changes):
             own = [k for k in changes if self._tried[k][0] == onset]
             begun = self._begun(own, onset, changes)
@@ -376,6 +412,14 @@ class SinceOnset:
                 if one.evidence > best[k].evidence + _FLAT:
                     best[k] = _Sized(one.evidence, begun.bent.get(k), begun)
         return found
+
+    def _secants(self, changes: Mapping[int, float]) -> dict[int, float]:
+        """The changes that are large enough for a secant, as far as a parameter may go."""
+        return {
+            k: self._within(k, change)
+            for k, change in changes.items()
+            if abs(change) >= _SMALL * self._all[k].usual
+        }
 
     def _within(self, k: int, change: float) -> float:
         """The change, of a parameter only as far as it keeps its sign and size."""
