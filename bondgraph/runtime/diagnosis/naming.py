@@ -207,7 +207,8 @@ class OneOrTwo(NamedTuple):
     """Whether a single fault is enough for what was seen, and `alone` may be named.
 
     If it is not, `pairs` are those that are, the best one first, none where these are not either.
-    `perhaps` says that of the faults that look like no single one two may be it all the same.
+    `perhaps` says that of the faults that look like no single one two may be it all the same, or
+    that one may be it that explains what was seen, if less well than two.
     """
 
     alone: bool = True
@@ -233,7 +234,7 @@ def one_or_two(
     near = [p for p in pairs if p.evidence >= least + math.log(_SHOWN) and fits(p)]
     told = [p for p in near if doubles().like_none(h.fault for h in p.hypotheses)]
     if any(pair.evidence >= least for pair in told):
-        return OneOrTwo(False, left)
+        return OneOrTwo(False, left, True)
     return OneOrTwo(True, (), bool(told))
 
 
@@ -304,7 +305,8 @@ def update(
         return verdict._replace(message=described_unexplained(verdict))
     verdict = verdict._replace(pairs=_shown(pairs))
     alike = [] if doubles is None else _alike(pairs[0], doubles)
-    message = f"no single fault explains this; {described_pairs(verdict)}"
+    well = " as well" if two.perhaps else ""
+    message = f"no single fault explains this{well}; {described_pairs(verdict)}"
     message += "; or something that is not modelled"
     if alike:
         every = doubles is not None and len(alike) == len(doubles.groups)

@@ -96,7 +96,7 @@ def test_beside_one_that_fits_are_two_that_look_like_no_single_one() -> None:
     told, mistaken = _doubles((), (), ()), _doubles((), (), ((0, 1),))
     # as probable as one in a thousand of two makes it: beyond that it is two, and from a fiftieth
     # of all on it may be
-    for more, alone, perhaps in ((7.0, False, False), (6.8, True, True), (2.9, True, False)):
+    for more, alone, perhaps in ((7.0, False, True), (6.8, True, True), (2.9, True, False)):
         single = [_explained("k", pair.evidence - more)]
         said = one_or_two(single, [pair], True, lambda: told)
         assert said == OneOrTwo(alone, () if alone else [pair], perhaps)
@@ -114,6 +114,8 @@ def test_what_looks_like_two_at_once_is_told_by_rank() -> None:
     assert verdict.pairs[0].faults == ("R", "f") and verdict.pairs[0].sizes == (0.5, 0.2)
     assert "R with f (100 %, +0.5 Ohm and +0.2 Ohm)" in verdict.message
     assert verdict.message.endswith("any two of R or U, f and k could look like that")
+    nearly = update(5.0, 4.0, {}, (), single, OneOrTwo(False, pairs, True), doubles).message
+    assert nearly.startswith("no single fault explains this as well; two at once do since 4.000 s")
     alone = doubles._replace(alike=((), (), (), ()))
     assert "any two" not in update(5.0, 4.0, {}, (), single, OneOrTwo(False, pairs), alone).message
     every = DoubleFaults(groups[:3], (((1, 2),), ((0, 2),), ((0, 1),)), "")
