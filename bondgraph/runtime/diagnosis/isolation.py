@@ -145,9 +145,10 @@ class Evidence:
         """
         leads = sorted(singles, key=lambda e: -e.evidence)
         ways = _by_fault(case)
-        place = [
+        sized = (
             [j for j in ways.get(e.fault, ()) if case.hypotheses[j].held is None] for e in leads
-        ]
+        )
+        place = [own for own in sized if own]  # what is held only takes nobody's place
         pairs = [
             pair
             for at, own in enumerate(place[:_LEADS])

@@ -33,8 +33,9 @@ _SMALL = 1e-5  # of the usual change: for less a tangent does
 _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
 _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
 _BEHIND = 30.0  # evidence that a fault may lack and still be worth another onset or size
+_AGAIN = 1.5  # times the rows with which onsets and sizes were looked for, until they are again
 _STEP, _FINE = 2.0, 1.03  # factors between sizes that are compared, at first and at last
-_PAIRS, _TOGETHER = 8, 4  # pairs whose sizes are looked for, and how often
+_PAIRS, _TOGETHER = 8, 4  # pairs whose sizes beside each other are looked for, and rounds of it
 _HUGE = 1e100  # a slope beyond it is that of a law that has run over
 _FLAT = 0.01  # evidence that is none: a size does no more than it does as a tangent
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
@@ -164,7 +165,7 @@ class SinceOnset:
             self._known = found if len(self._rows) == MOST else None
             return found
         self._dated(history, self._found(history) if self._again else ())
-        self._again = 3 * len(self._rows) // 2
+        self._again = math.floor(_AGAIN * len(self._rows))
         self._bend(history)
         return self._found(history)
 
