@@ -739,7 +739,7 @@ class Compilation:
         from bondgraph.runtime.diagnosis.healthy import diagnosis_model
 
         def doubles() -> DoubleFaults:
-            """Asked for while a machine is watched, which cannot wait for long."""
+            """Asked for before a machine is watched, which cannot wait for long."""
             from bondgraph.ir.signature_matrix import DoubleFaults
 
             small = len(self.graph.bonds) <= _WATCHED

@@ -42,7 +42,7 @@ def double_faults(
 
     Faults a and b at once can look like c if rank [J F_a F_b F_c] = rank [J F_a F_b], in the words
     of `isolability`, which gives the `groups`; one fault stands for its group. A residual that sees
-    c and neither a nor b decides without a rank. Of a machine with modes it is enough that one mode
+    just one of the three decides without a rank. Of a machine with modes it is enough that one mode
     tells them apart.
     """
     if groups is None:
@@ -52,17 +52,24 @@ def double_faults(
     seen = [frozenset(r.name for r in own if g[0] in sees[r.name]) for g in groups]
     suspects: _Suspects = {}
     for a, b in combinations(range(len(groups)), 2):
-        both = seen[a] | seen[b]
-        if singles := [c for c, rows in enumerate(seen) if rows <= both and c not in (a, b)]:
+        one, both = seen[a] ^ seen[b], seen[a] | seen[b]
+        singles = [c for c, rows in enumerate(seen) if one <= rows <= both and c not in (a, b)]
+        if singles:
             suspects[a, b] = singles
     if len(suspects) > _PAIRS:
         return DoubleFaults(tuple(groups), (), f"{len(suspects)} pairs of groups are too many")
-    exprs = [r.expr for r in own]
+    asked = _asked(suspects)
+    exprs = [r.expr for r in own if any(r.name in seen[f] for f in asked)]
     try:
         alike = _left(exprs, [g[0] for g in groups], suspects, Reactions(plant, seed))
     except ExactUnavailable as reason:
         return DoubleFaults(tuple(groups), (), str(reason))
     return DoubleFaults(tuple(groups), tuple(_any_two(alike, c) for c in range(len(groups))), "")
+
+
+def _asked(suspects: _Suspects) -> list[int]:
+    """The groups that a suspicion is about."""
+    return sorted({f for pair, singles in suspects.items() for f in (*pair, *singles)})
 
 
 def _left(
@@ -99,13 +106,13 @@ def _at_a_point(
     all columns of a single fault stands one random combination of them.
     """
     times = min(3 * highest_order(exprs) + 1, _MOST) + integral_depth(exprs)
-    numbers, columns = parity(plant, faults, exprs, times, number, modes)
+    asked = _asked(suspects)
+    numbers, columns = parity(plant, [faults[f] for f in asked], exprs, times, number, modes)
     random = Random(number)
-    mixed: list[Row] = []
-    for fault in faults:
-        mixed.append({})
-        for column in columns[fault]:
-            add_multiple(numbers, mixed[-1], numbers.any(random), column)
+    mixed: dict[int, Row] = {fault: {} for fault in asked}
+    for fault, own in mixed.items():
+        for column in columns[faults[fault]]:
+            add_multiple(numbers, own, numbers.any(random), column)
     left: _Suspects = {}
     for (a, b), singles in suspects.items():
         spanning = [*columns[faults[a]], *columns[faults[b]]]

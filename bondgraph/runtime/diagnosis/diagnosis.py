@@ -76,6 +76,7 @@ class Diagnosis:
             self._limits = np.array(limits(tuning.limits, engine.residuals), dtype=float)
         learns = tuning is None
         self._detection = Detection(engine.residuals, max(3, self._every // 10), learns)
+        model.doubles()  # found now: an alarm cannot wait for it
         self._judge = Judge(engine, model)
         checked = [(k.path, at) for at, k in enumerate(engine.signals)
                    if k.path in model.faults and k.kind != "mode" and k.counts is None]  # fmt: skip

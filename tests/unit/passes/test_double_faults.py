@@ -126,6 +126,22 @@ def test_a_mode_tells_apart() -> None:
     assert found == {("k", "m", "y")}
 
 
+def test_no_two_of_which_one_shows_by_itself() -> None:
+    """On, E - L i' - r i and C u' + u/R: E is L times something there, and nothing with C as well,
+    which would show in the second as no E does; off, L acts alone."""
+    c = compiled(
+        """model M { input on : bool; param L=0.3; param C=0.4
+        1:tr when on { <- Se:E; -> x }
+        0:x -> 1:coil
+        coil { -> I:L; -> R:rL = 0.2; -> Df:i }
+        1:fw when not on { -> x; <- o }
+        0:o { -> C:C; -> R:R = 2 }
+        sensor u = o.e }"""
+    )
+    assert {"L", "C", "E"} <= {g[0] for g in c.double_faults.groups}
+    assert ("E", "L", "C") not in pairs(c)
+
+
 def test_in_the_residuals_themselves() -> None:
     """Errors of signals, which enter closed forms of linear models: rank at one complex frequency.
 
