@@ -112,8 +112,8 @@ def tune(
 class _Noise(NamedTuple):
     """Of one log: how many valid samples, by residual the upward crossings of its mean, the level
     that one sample in a thousand exceeds beside it, the largest excess over the threshold to either
-    side; the rows, and what is left of them beside parameters and is not covered by tolerances, and
-    of their averages; the largest threshold."""
+    side; the rows, those of the warm-up too, and what is left of the others beside parameters and
+    is not covered by tolerances, and of their averages; the largest threshold."""
 
     rows: int
     crossings: Array
@@ -166,22 +166,21 @@ class _Work:
         weight = 1.0 / np.maximum(rough, 1e-12 * size + 1e-300) ** 2
         every = []
         for batch, slopes, doubt in self._chunks(samples[start:], samples[:start]):
-            for k in range(self.every - 1, len(slopes), self.every):
-                own = [x[k] for x in (*batch, doubt, slopes)]
+            for k, row in self._rows(batch, slopes, doubt):
                 history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
-                block = slice(k + 1 - self.every, k + 1)
-                mean = averaged(batch.value[block], batch.valid[block], slopes[block])
-                row = Row(0.0, samples[:0], self.engine, *own)
-                every.append(row._replace(average=mean))
+                every.append(row)
         found = history.fit()
-        rest, spaced, excess, rows = [], [], [], 0
+        # a residual with fewer stages than others is watched while these warm up
+        skip = start % self.every
+        early = list(self._chunks(samples[skip:start], samples[:skip]))
+        excess = [_beyond(chunk[0]) for chunk in early]
+        rest, spaced, rows = [], [], 0
         bound = np.zeros(len(self.engine.residuals))
         for batch, slopes, _ in self._chunks(samples[start:], samples[:start]):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)
             rest.append(np.where(batch.valid, left, np.nan))
             spaced.append(rest[-1][self.every - 1 :: self.every])
-            sides = np.stack([batch.value, -batch.value]) - batch.bound
-            excess.append(np.where(batch.valid, sides, -np.inf).max(axis=1, initial=-np.inf))
+            excess.append(_beyond(batch))
             rows += int(batch.valid.any(axis=1).sum())
             bound = np.maximum(bound, batch.bound.max(axis=0, initial=0.0))
         left = np.concatenate(rest)
@@ -191,11 +190,20 @@ class _Work:
             ((off[:-1] < 0) & (off[1:] >= 0)).sum(axis=0).astype(float),
             np.quantile(np.abs(off), 0.999, axis=0),
             np.max(excess, axis=0),
-            tuple(every),
+            (*(row for chunk in early for _, row in self._rows(*chunk)), *every),
             uncovered(np.concatenate(spaced), np.array([row.bound for row in every])),
             _averages(every, found),
             bound,
         )
+
+    def _rows(self, batch: Batch, slopes: Array, doubt: Array) -> Iterator[tuple[int, Row]]:
+        """The rows of a chunk, each with the number of its sample."""
+        for k in range(self.every - 1, len(slopes), self.every):
+            own = [x[k] for x in (*batch, doubt, slopes)]
+            block = slice(k + 1 - self.every, k + 1)
+            mean = averaged(batch.value[block], batch.valid[block], slopes[block])
+            row = Row(0.0, np.empty((0, len(self.engine.signals))), self.engine, *own)
+            yield k, row._replace(average=mean)
 
     def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array, Array]]:
         """Residuals, slopes of what is tolerated, and doubt, some thousand samples at a time."""
@@ -265,6 +273,12 @@ class _Whole:
         bound = batch.bound + slack(self._tolerated, slopes) + doubt
         self._age += len(samples)
         return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes, doubt
+
+
+def _beyond(batch: Batch) -> Array:
+    """How far each residual is above its threshold at most, and below, (2, residuals)."""
+    sides = np.stack([batch.value, -batch.value]) - batch.bound
+    return np.asarray(np.where(batch.valid, sides, -np.inf).max(axis=1, initial=-np.inf))
 
 
 def _averages(rows: Sequence[Row], found: Array) -> Array:

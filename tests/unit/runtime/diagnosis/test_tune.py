@@ -171,6 +171,31 @@ def test_a_limit_stays_above_what_a_healthy_machine_has_reached(first: bool) -> 
     assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached)
 
 
+def test_what_is_watched_before_all_are_warm_counts() -> None:
+    """r1 has one stage less than r2, and is watched sooner: it may not fire on what it learned."""
+    text = """bg 1
+model M {
+    param R = 2 Ohm
+    param L = 1 H
+    1:s { <- Se:U; -> R:r = R; -> Df:i }
+    1:t { <- Se:V; -> I:l = L; -> Df:j }
+}
+"""
+    made = Compilation(Source("m.bg", text), None, Options(rate=1 / _STEP))
+    engine = made.engine(native=False)
+    assert [k.path for k in engine.signals] == ["U", "V", "i", "j"]
+    draw = np.random.default_rng(7)
+    log = draw.normal(0.0, 1e-5, (_COUNT, 4)) + [_R * _I, 0.0, _I, 1.0]
+    log[0, 0] += 1.0
+    batch = engine.configured().run(log)
+    first = np.argmax(batch.valid, axis=0)
+    assert first[0] < first[1] == round(engine.warm_up / _STEP)
+    limit = tune(engine, made.diagnosis_model, [log], "digest", 2.0, _WINDOW).tuning.limits["r1"]
+    reached = np.abs(batch.value[:, 0] - limit.mean)[batch.valid[:, 0]].max()
+    assert reached > 10.0 * np.abs(batch.value[first[1] :, 0]).max()
+    assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached)
+
+
 def test_a_log_that_ends_with_the_first_row_behind_the_warm_up_teaches_nothing() -> None:
     engine = model().engine(native=False)
     short = math.ceil(engine.warm_up / engine.sample_time) + 1 + rows_apart(engine)
