@@ -294,6 +294,12 @@ def test_transformers_in_a_ring(back: float) -> None:
         (f"{LOOP}\ni -> R:x {{ e = f + f^2 }}", 'inputs.U = "-t"', ("`x`", "1 s")),
         ("Se:U -> 1:i\ni -> C:c = 1\ni -> R:r = 1", 'inputs.U = "log(0.5 - t)"', ("`U`", "0.5")),
         ("Se:F -> 1:w\nw -> I:M = 1\nw -> R:d { e = 2*sign(f) }", "inputs.F = 1", ("`tanh`",)),
+        (
+            "Se:U -> 1:i\ni -> I:L = 1e-8\ni -> R:r = 1e-3\ni -> C:c = 1e-8\n"
+            "Se:F -> 1:w\nw -> I:M = 1\nw -> R:d = 1",
+            "inputs.U = 1",
+            ("`L.p` and `c.q` ring", "1.59e+07 Hz", "quasi_static"),
+        ),
         ("param R0 : Ohm\nSe:U -> 1:i\ni -> R:R0\ni -> C:c = 1", "", ("`R0`",)),
     ],
 )  # fmt: skip

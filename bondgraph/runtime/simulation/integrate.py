@@ -28,6 +28,8 @@ _CALLS = 5e8  # rates in a segment: hours
 _PATIENCE = 2000  # such rates in a row, from which on a method will not find back
 _OFTEN = 100  # rates between two words about how far it is
 _RINGING = 1e5  # periods of one mode in a run: too many to follow
+_NAMED = 2  # states that a ringing is told of, at most
+_PART = 0.1  # of what the first of them has, from which on the other one is told
 _COARSE = 1e-6  # relative tolerance of a step: finer than instruments are
 _STEPS = 20_000  # in one segment, of a machine that has to keep up
 _UNLIMITED = 2**31 - 1
@@ -256,9 +258,33 @@ class _Tried:
             return found
         if (np.abs(self.x) > _LARGE * self.machine.scale(self.t, self.x, u)).any():
             return "the solution grows without bound"
+        ringing = self._ringing(u)
+        if ringing:
+            return ringing
         return (
             "steps become too small to go on; a law that jumps where the machine would rest"
             " (`sign`, `if`) does that, a steep `tanh` does not"
+        )
+
+    def _ringing(self, u: Sequence[float]) -> str:
+        """What rings far too fast to be followed to the end, empty if nothing does."""
+        if len(self.x) >= _MANY or self.failed:
+            return ""
+        with np.errstate(all="ignore"):
+            modes, right = np.linalg.eig(self.machine.jacobian(self.t, np.array(self.x), u))
+            fastest = int(np.argmax(np.abs(modes.imag)))
+            hertz = abs(modes[fastest].imag) / (2 * np.pi)
+            if not hertz * (self.span[1] - self.t) > _RINGING:
+                return ""
+            # how much each state has part in it, whatever its unit is
+            part = np.abs(right[:, fastest] * np.linalg.pinv(right)[fastest])
+        first = np.argsort(-part, kind="stable")[:_NAMED]
+        own = [k for k in first.tolist() if part[k] > _PART * part[first[0]]]
+        names = " and ".join(f"`{self.machine.states[k]}`" for k in sorted(own))
+        verb = "rings" if len(own) == 1 else "ring"
+        return (
+            f"{names} {verb} at {hertz:.3g} Hz, far too fast for so long a run; `quasi_static`"
+            " in the scenario takes a part, such as a cable, as being at rest"
         )
 
 
