@@ -71,6 +71,8 @@ def run(args: Namespace) -> int:
 
     compilation = opened(args)
     check_units(compilation.graph, (*args.at, *args.swing, *args.noise))
+    if not compilation.residuals:
+        return _nothing(args, compilation)
     situation = situation_of(args, compilation.program)
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     forms = {_form(args.form): compilation}
@@ -101,6 +103,29 @@ def run(args: Namespace) -> int:
             *_answers_told(order, _units(compilation)),
             *_pairs(compilation, apart, situation),
         ],
+    )
+
+
+def _nothing(args: Namespace, compilation: Compilation) -> int:
+    """What is said of a model without a residual: why there is none, not that signals are zero."""
+    from bondgraph.cli.reasons import message
+
+    pairs: dict[str, object] = {"pairs": []} if args.pairs else {}
+    program = compilation.program
+    return console.told(
+        args.json,
+        compilation.report.diagnostics,
+        message(compilation),
+        lambda: {
+            "model": compilation.graph.name,
+            "rate": program.rate,
+            "bandwidth": program.bandwidth,
+            "noise": [],
+            "faults": [],
+            "order": [],
+            **pairs,
+        },
+        lambda: [f"{compilation.graph.name}: {message(compilation)}"],
     )
 
 

@@ -41,8 +41,11 @@ _SMALL = 200
 def at_best(compilation: Compilation) -> tuple[tuple[str, ...], ...] | None:
     """The groups that no residuals could divide any further, where the answer costs little.
 
-    None of a large model that was not compiled with `--isolate`, and where it is not known.
+    None of a large model that was not compiled with `--isolate`, and where it is not known: what a
+    relation that could not be had would tell apart, nobody says.
     """
+    if compilation.residuals.missing:
+        return None
     if len(compilation.graph.bonds) > _SMALL and not compilation.options.isolate:
         return None
     return compilation.maximum_isolability

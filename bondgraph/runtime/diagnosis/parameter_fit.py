@@ -295,7 +295,8 @@ def fittable(
                 )
         elif name not in names:
             close = get_close_matches(name, [*names, *signals], 3, 0.5)
-            hint = f"perhaps {' or '.join(close)}" if close else f"there is {', '.join(names)}"
+            there = f"there is {', '.join(names)}" if names else "there is none"
+            hint = f"perhaps {' or '.join(close)}" if close else there
             raise ValueError(f"no residual sees a parameter `{name}` with a number; {hint}")
     free = list(dict.fromkeys(wanted or [n for n in names if n in tolerances] or names))
     if not free:

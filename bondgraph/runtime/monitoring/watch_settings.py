@@ -121,6 +121,15 @@ def sample_rate(
     return asked or own or usual
 
 
+def something_to_watch(compilation: Compiled) -> None:
+    """Raises Trouble for a model without a residual."""
+    if not compilation.diagnosis_model.sees:
+        raise Trouble(
+            f"{compilation.graph.name} has no residual that could be watched:"
+            " `bondgraph compile` tells why, `bondgraph sensors` where a sensor would help"
+        )
+
+
 def watching(
     compilation: Compiled,
     tuning: Tuning | None,
@@ -135,8 +144,7 @@ def watching(
         engine = compilation.engine(tell=tell)
     except ValueError as error:
         raise Trouble(str(error)) from error
-    if not compilation.diagnosis_model.sees:
-        raise Trouble(f"{compilation.graph.name} has no residual that could be watched")
+    something_to_watch(compilation)
     if tuning is not None:
         engine = engine.configured(bandwidth=tuning.bandwidth)
     try:

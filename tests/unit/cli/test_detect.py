@@ -150,7 +150,12 @@ def test_a_model_without_redundancy_has_nothing_to_detect(
     path = tmp_path / "m.bg"
     path.write_text("bg 1\nmodel M { param R = 1 Ohm; Se:U -> 1:j -> R:R }\n", "utf-8")
     assert main(["detect", str(path)]) == 0
-    assert "Traceback" not in capsys.readouterr().err
+    assert capsys.readouterr().out == (
+        "M: no residual: the model has no sensor, so no fault can be detected\n"
+    )
+    assert main(["detect", str(path), "--at", "U=1", "--pairs", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["faults"] == found["noise"] == found["pairs"] == []
 
 
 def test_tolerances_that_are_left_out_are_said(

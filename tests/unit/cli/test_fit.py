@@ -121,6 +121,16 @@ def test_a_model_without_a_parameter_to_fit_says_so(bondgraph: Command, folder: 
     assert "give one to a parameter" in done.err
 
 
+@pytest.mark.parametrize("command", ["fit", "tune"])
+def test_a_model_without_residuals_says_so(
+    bondgraph: Command, folder: Path, command: str
+) -> None:
+    (folder / "c.bg").write_text("bg 1\nmodel Blind { param R = 2 Ohm; Se:U -> 1:i; i -> R:R }\n")
+    done = bondgraph(command, "c.bg", "log.csv")
+    assert done.status == 1
+    assert "Blind has no residual that could be watched" in done.err
+
+
 def test_numbers_from_file_and_words_stand_in_for_those_of_the_model(
     bondgraph: Command, folder: Path
 ) -> None:

@@ -55,6 +55,13 @@ def test_the_others_stand_before_the_judge(three: Path, tmp_path: Path) -> None:
     self_tests(tmp_path / "out")
 
 
+def test_what_could_be_told_apart_at_best_is_not_known(three: Path, bondgraph: Command) -> None:
+    done = bondgraph("isolate", three)
+    assert "Told apart at best by the structure" in done.out
+    assert "by the laws themselves" not in done.out
+    assert json.loads(bondgraph("isolate", three, "--json").out)["best"] is None
+
+
 def test_json_names_it(three: Path, tmp_path: Path, bondgraph: Command) -> None:
     done = bondgraph("compile", three, "--json", "-o", tmp_path / "out")
     found = json.loads(done.out)
