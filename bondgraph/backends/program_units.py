@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from heapq import heapify, heappop, heappush
 
 from bondgraph.backends.c_functions import Unit
 from bondgraph.backends.one_procedure import Start, asks
@@ -86,8 +87,10 @@ def grouped(statements: Sequence[Statement]) -> list[tuple[str, int]]:
     """Statements of configure by number with the key of each, those of a key together.
 
     A local value goes to what all that need it are parts of: what both `r1_w1` and `r1_w2` need
-    is computed before either, in `r1`. Nothing reads a coefficient, so that nothing else matters.
+    is computed before either, in `r1`. What reads a coefficient comes behind what computes that,
+    and goes to it where nothing else tells: the first number of a tape of `r1` belongs to `r1`.
     """
+    writers = _writers(statements)
     keys: dict[int, str] = {}
     users: dict[Ref, list[str]] = {}
     for at, statement in reversed([*enumerate(statements)]):
@@ -97,6 +100,10 @@ def grouped(statements: Sequence[Statement]) -> list[tuple[str, int]]:
         for ref in reads([statement]):
             if ref.space == "local" and ref != own:
                 users.setdefault(ref, []).append(key)
+    needs = {at: _needed(statements[at], at, writers) for at in keys}
+    for at in sorted(keys):
+        given = [keys[k] for k in needs[at] if _local(statements[k]) is None]
+        keys[at] = keys[at] or together(given)
     seen: dict[str, int] = {}
 
     def order(at: int) -> tuple[list[int], bool, int]:
@@ -106,7 +113,38 @@ def grouped(statements: Sequence[Statement]) -> list[tuple[str, int]]:
     for at in sorted(keys, key=lambda at: (_local(statements[at]) is not None, at)):
         for part in _parts(keys[at]):
             seen.setdefault(part, len(seen))
-    return [(keys[at], at) for at in sorted(keys, key=order)]
+    waiting, readers = {at: len(found) for at, found in needs.items()}, dict[int, list[int]]()
+    for at, found in needs.items():
+        for k in found:
+            readers.setdefault(k, []).append(at)
+    ready = [order(at) for at in keys if not waiting[at]]
+    heapify(ready)
+    rows: list[tuple[str, int]] = []
+    while ready:
+        at = heappop(ready)[-1]
+        rows.append((keys[at], at))
+        for reader in readers.get(at, ()):
+            waiting[reader] -= 1
+            if not waiting[reader]:
+                heappush(ready, order(reader))
+    return rows
+
+
+def _writers(statements: Sequence[Statement]) -> dict[tuple[str, str], int]:
+    """Which statement computes each coefficient and each local value, by space and name."""
+    found: dict[tuple[str, str], int] = {}
+    for at, statement in enumerate(statements):
+        if isinstance(statement, PolynomialTape):
+            found |= {("coef", output.array): at for output in statement.outputs}
+        else:
+            found[statement.target[:2]] = at
+    return found
+
+
+def _needed(statement: Statement, at: int, writers: Mapping[tuple[str, str], int]) -> list[int]:
+    """The statements that compute what this one reads, by number."""
+    own = {writers[ref[:2]] for ref in reads([statement]) if ref[:2] in writers}
+    return sorted(own - {at})
 
 
 def _parts(key: str) -> list[str]:

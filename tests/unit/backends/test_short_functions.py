@@ -9,7 +9,7 @@ import pytest
 
 from bondgraph.backends.program_units import grouped
 from bondgraph.backends.short_functions import Piece, Step, parts, pieces
-from bondgraph.ir.program import Assign, Const, Product, Ref
+from bondgraph.ir.program import Assign, Const, PolynomialTape, Product, Ref, Statement, TapeOutput
 
 
 def _flat(members: Iterable[int | Piece]) -> list[int]:
@@ -79,3 +79,23 @@ def test_a_value_is_computed_where_all_that_need_it_are() -> None:
         ("", "w"), ("r1", "m"), ("r1_w1", "r1_w1_x"), ("r1_w2", "n"), ("r1_w2", "r1_w2_x"),
         ("r2", "r2_x"),
     ]  # fmt: skip
+
+
+def test_what_reads_a_coefficient_is_computed_after_it() -> None:
+    """A number of the tape of r2, that of a copy of it, and a local value with both."""
+
+    def assign(target: Ref, comment: str, *factors: Ref) -> Assign:
+        return Assign(target, Product((Const(2.0), *factors)), comment, None)
+
+    array, copy, both = Ref("coef", "r2_x", 1), Ref("coef", "r2_x__1"), Ref("local", "both")
+    outputs = (TapeOutput("r2_x", 0, 2), TapeOutput("r2_y", 1, 2))
+    run: list[Statement] = [
+        PolynomialTape("r2", 2, 2, (), (), outputs, "r2: factors of all derivatives", None),
+        assign(copy, "r2_x[1]", array),
+        assign(both, "both", array, copy),
+        assign(Ref("coef", "r1_z"), "r1: factor of z", both),
+        assign(Ref("coef", "free"), "free"),
+    ]
+    found = grouped(run)
+    assert [at for _, at in found] == [4, 0, 1, 2, 3]
+    assert [key for key, _ in found] == ["", "r2", "r2", "r1", "r1"]
