@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from heapq import heapify, heappop, heappush
+from graphlib import TopologicalSorter
+from heapq import heappop, heappush
 
 from bondgraph.backends.c_functions import Unit
 from bondgraph.backends.one_procedure import Start, asks
@@ -113,20 +114,16 @@ def grouped(statements: Sequence[Statement]) -> list[tuple[str, int]]:
     for at in sorted(keys, key=lambda at: (_local(statements[at]) is not None, at)):
         for part in _parts(keys[at]):
             seen.setdefault(part, len(seen))
-    waiting, readers = {at: len(found) for at, found in needs.items()}, dict[int, list[int]]()
-    for at, found in needs.items():
-        for k in found:
-            readers.setdefault(k, []).append(at)
-    ready = [order(at) for at in keys if not waiting[at]]
-    heapify(ready)
     rows: list[tuple[str, int]] = []
-    while ready:
+    ready: list[tuple[list[int], bool, int]] = []
+    sorter = TopologicalSorter(needs)
+    sorter.prepare()
+    while sorter.is_active():
+        for at in sorter.get_ready():
+            heappush(ready, order(at))
         at = heappop(ready)[-1]
+        sorter.done(at)
         rows.append((keys[at], at))
-        for reader in readers.get(at, ()):
-            waiting[reader] -= 1
-            if not waiting[reader]:
-                heappush(ready, order(reader))
     return rows
 
 
