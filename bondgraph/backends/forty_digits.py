@@ -80,10 +80,22 @@ def _in_double(function: Callable[..., float], *args: Value) -> Value:
     result = float(function(*numbers))
     size = abs(result)
     for at, arg in enumerate(args):
-        moved = list(numbers)
-        moved[at] -= math.copysign(_BUMP * arg.size, moved[at])
-        size += abs(function(*moved) - result) / _BUMP
+        size += _moved(function, numbers, result, at, arg.size)
     return Value(value(result).number, size)
+
+
+def _moved(
+    function: Callable[..., float], numbers: list[float], result: float, at: int, size: float
+) -> float:
+    """How much a result moves with one argument, on the side where the function has a value."""
+    bump = math.copysign(_BUMP * size, numbers[at])
+    for step in (-bump, bump):
+        moved = [*numbers[:at], numbers[at] + step, *numbers[at + 1 :]]
+        try:
+            return abs(function(*moved) - result) / _BUMP
+        except (ArithmeticError, ValueError):  # it ends here: a root of what is nearly nothing
+            continue
+    return 0.0
 
 
 _SIZED = Number(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from itertools import takewhile
 
 from bondgraph.backends.blocks import Line, blocks, lines, recalled
 from bondgraph.backends.forty_digits import Evaluation, Value, value
@@ -87,14 +88,22 @@ def _without_unwritten(program: Program, vector: Vector) -> Vector:
 def _in_some_region(
     attempt: Callable[[tuple[float, float]], tuple[Vector, ...]],
 ) -> tuple[Vector, ...]:
+    """The vectors of the first region in which all are finite, else the most before one is not."""
+    most: tuple[Vector, ...] = ()
     for region in _REGIONS:
         try:
             found = attempt(region)
         except (ArithmeticError, ValueError):
             continue
-        if all(math.isfinite(x) for v in found for pair in v.results for x in pair):
+        finite = tuple(takewhile(_finite, found))
+        if len(finite) == len(found):
             return found
-    return ()
+        most = max(most, finite, key=len)
+    return most
+
+
+def _finite(vector: Vector) -> bool:
+    return all(math.isfinite(x) for pair in vector.results for x in pair)
 
 
 def inputs(program: Program) -> Iterator[Ref]:
@@ -157,8 +166,13 @@ def _amplitudes(
     if not derivatives or len(derivatives) > _MANY:
         return {}
     modes = {k.name: True for k in program.read if k.kind == "mode"}
-    base = {ref: sum(region) / 2.0 + (region[1] - region[0]) / 8.0 for ref in refs}
-    rest = _run_exact(program, coefs, base, modes)
+    middle, eighth = sum(region) / 2.0, (region[1] - region[0]) / 8.0
+    base = dict.fromkeys(refs, middle + eighth)
+    try:
+        rest = _run_exact(program, coefs, base, modes)
+    except ArithmeticError:  # what is alike cancels, in a divisor perhaps
+        base = {ref: middle + eighth * (1.0 + k / len(refs)) for k, ref in enumerate(refs)}
+        rest = _run_exact(program, coefs, base, modes)
 
     def moved(ref: Ref) -> list[float]:
         results = _run_exact(program, coefs, base | {ref: base[ref] + 0.125}, modes)

@@ -11,7 +11,7 @@ import pytest
 from bondgraph.backends import forty_digits as module
 from bondgraph.backends.forty_digits import Evaluation, value
 from bondgraph.backends.golden import golden
-from bondgraph.ir.program import Const, Function, PolynomialTape, Ref
+from bondgraph.ir.program import Assign, Const, Function, PolynomialTape, Product, Ref
 from tests.unit.backends import programs
 
 
@@ -109,6 +109,40 @@ def test_signals_lie_where_the_law_has_a_value() -> None:
     law = programs.put("residual:r1", Function("log", (Ref("known", "U"),)))
     found = golden(program._replace(exact=(law, program.exact[1])))
     assert found.exact and all(v.values[Ref("known", "U")] > 0.0 for v in found.exact)
+
+
+def test_a_root_of_what_cancels_is_as_large_as_what_it_is_made_of() -> None:
+    """Nothing is left of 1000 - 1000, and a little less has no root."""
+    run = Evaluation(programs.motor())
+    run.values = {Ref("known", "U"): value(1000.0), Ref("known", "y"): value(1000.0)}
+    run.run([programs.put("local:d", Function("sqrt", (programs.minus(*run.values),)))])
+    found = run.values[Ref("local", "d")]
+    assert float(found) == 0.0 and 1.0 < found.size < math.inf
+
+
+def test_signals_that_are_alike_may_cancel_in_a_divisor() -> None:
+    """1/(U - y) has no value where all signals are the same, as they are to begin with."""
+    program = programs.motor()
+    U, y = Ref("known", "U"), Ref("known", "y")
+    law = programs.put("residual:r1", programs.over(Const(1.0), programs.minus(U, y)))
+    found = golden(program._replace(exact=(law, program.exact[1]))).exact
+    assert found
+    for vector in found:
+        wanted = 1.0 / (vector.values[U] - vector.values[y])
+        assert vector.results[0][0] == pytest.approx(wanted)
+
+
+def test_samples_are_taken_as_long_as_results_are_finite() -> None:
+    """A state that grows is larger than any number in the end."""
+    program = programs.motor()
+    x, r1 = Ref("state", "x"), Ref("residual", "r1")
+    grows = Assign(x, Product((Const(1e40), x)), "", None)
+    told = Assign(r1, x, "", None)
+    first = (Assign(x, Const(1.0), "", None), told)
+    found = golden(program._replace(first=first, step=(grows, told))).step
+    assert [v.results[0][0] for v in found[:3]] == pytest.approx([1.0, 1e40, 1e80])
+    assert len(found) == 8
+    assert all(math.isfinite(n) for v in found for pair in v.results for n in pair)
 
 
 def test_every_tape_is_found() -> None:
