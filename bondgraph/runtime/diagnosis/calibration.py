@@ -309,15 +309,16 @@ def _limits(
     for k in np.flatnonzero(used).tolist():  # others were never valid in these logs
         own = noise(rest[:, k], centred=stands[k])
         rate = max(float(crossings[k]), engine.bandwidth / (2 * math.pi))
-        level = kappa(rate, alarms)
-        sigma = max(own.foreseen(level), float(tail[k]))
+        asked = kappa(rate, alarms)
+        sigma = max(own.foreseen(asked), float(tail[k]))
         top, bottom = excess[:, k].tolist()
-        level = max(level, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
-        mean = lasting(averages[:, k], 0.0, stands[k], level)
+        level = max(asked, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
+        # what a single sample reached says nothing of the noise of averages
+        mean = lasting(averages[:, k], 0.0, stands[k], asked)
         limit = Limit(sigma, rate, level, height(often, alarms), own.mean, own.memory)
         if math.isfinite(mean.unit):
             off = mean.mean - own.mean if stands[k] else 0.0
-            unit = mean.unit * sigma / own.foreseen(level)
+            unit = mean.unit * sigma / own.foreseen(asked)
             limit = Limit(*limit[:6], unit, off, *mean.weights.tolist())
         found[engine.residuals[k]] = limit
     return _higher(found, engine.residuals, logs, spread)

@@ -186,14 +186,20 @@ model M {
     assert [k.path for k in engine.signals] == ["U", "V", "i", "j"]
     draw = np.random.default_rng(7)
     log = draw.normal(0.0, 1e-5, (_COUNT, 4)) + [_R * _I, 0.0, _I, 1.0]
-    log[0, 0] += 1.0
+    log[0, 0] += 10.0
     batch = engine.configured().run(log)
     first = np.argmax(batch.valid, axis=0)
     assert first[0] < first[1] == round(engine.warm_up / _STEP)
-    limit = tune(engine, made.diagnosis_model, [log], "digest", 2.0, _WINDOW).tuning.limits["r1"]
+    jump, none = 10.0 * np.eye(_COUNT, 4)[:, :1] * np.eye(1, 4), np.zeros((1, 4))
+    limit, usual = (
+        tune(engine, made.diagnosis_model, [log - less], "digest", 2.0, _WINDOW).tuning.limits["r1"]
+        for less in (none, jump)
+    )
     reached = np.abs(batch.value[:, 0] - limit.mean)[batch.valid[:, 0]].max()
     assert reached > 10.0 * np.abs(batch.value[first[1] :, 0]).max()
     assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached)
+    # beside that the averages of rows are what they are without the jump
+    assert limit.unit / limit.sigma == pytest.approx(usual.unit / usual.sigma, rel=0.1)
 
 
 def test_a_log_that_ends_with_the_first_row_behind_the_warm_up_teaches_nothing() -> None:
