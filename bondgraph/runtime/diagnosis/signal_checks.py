@@ -69,8 +69,10 @@ class SignalChecks:
 
     Each sample is compared with what its neighbours on both sides let expect, by weights that fit
     the healthy signal best, and with their median: a step is far from the first, the peak of an
-    oscillation from the second, a spike from both. A signal without a value (NaN) shows nothing,
-    and does not keep others from being looked at.
+    oscillation from the second, a spike from both. A step that overshoots for one sample, as the
+    current that a command drives, is far from both too: what the neighbours let expect is off
+    behind it and before it to opposite sides. A signal without a value (NaN) shows nothing, and
+    does not keep others from being looked at.
 
     `inputs` drive the machine: they may jump and be rough as never before, and so may sensors
     then. What an input shows so is not told by itself; whether it is wrong residuals say.
@@ -109,7 +111,7 @@ class SignalChecks:
         own = np.where(np.isfinite(samples), samples, math.nan)[:, self._at]
         with_last = np.concatenate([self._last, own])
         runs, ended, changes = self._runs(own)
-        self._last = with_last[-2 * _SIDE :]
+        self._last = with_last[-4 * _SIDE :]
         if not self._names or len(with_last) < 4 * _SIDE + 1:
             return []
         if not len(self._weights):
@@ -198,9 +200,13 @@ class SignalChecks:
         for k in range(own.shape[1]):
             table = np.column_stack([near[:, k], next_[:, k], middle[:, k]])
             table = table[np.isfinite(table).all(axis=1)]
-            known = len(table) >= _ENOUGH // 2  # else as of a signal that is smooth
-            best = np.linalg.lstsq(table[:, :2], table[:, 2], rcond=None)[0] if known else _SMOOTH
-            weights.append(best)
+            if len(table) < _ENOUGH // 2:
+                weights.append(_SMOOTH)
+                continue
+            # of an average: what is expected moves with the signal, wherever its zero is
+            nearer, rest = table[:, :1] - table[:, 1:2], table[:, 2] - table[:, 1] / 2.0
+            nearest = float(np.linalg.lstsq(nearer, rest, rcond=None)[0][0])
+            weights.append((nearest, 0.5 - nearest))
         self._weights = np.array(weights)
         rows, self._seen = self._seen, []
         last = np.empty((0, own.shape[1]))
@@ -209,7 +215,7 @@ class SignalChecks:
             with_last = np.concatenate([last, row])
             self._last = last
             _, ended, changes = self._runs(row)
-            last = with_last[-2 * _SIDE :]
+            last = with_last[-4 * _SIDE :]
             if len(with_last) >= 4 * _SIDE + 1:
                 far, rough, moved, _ = self._looked_at(with_last)
                 self._learn(row, far, rough, moved, ended, changes)
@@ -245,16 +251,36 @@ class SignalChecks:
         expect, and the next spike that is not beside it; the roughness, what the signals move, and
         where the spike is."""
         near, next_, middle = _around(samples)
-        off = np.abs(middle - near * self._weights[:, 0] - next_ * self._weights[:, 1])
+        error = middle - near * self._weights[:, 0] - next_ * self._weights[:, 1]
+        off, inside = np.abs(error), slice(_SIDE, len(error) - _SIDE)
         before, after = samples[1:-3], samples[3:-1]
         median = np.clip(middle, np.minimum(before, after), np.maximum(before, after))
-        spike = np.minimum(off, np.abs(middle - median))
+        either = np.minimum(off, np.abs(middle - median))[inside]
+        spike = np.where(self._steps(error), 0.0, either)
         apart = np.abs(np.arange(len(spike))[:, None] - spike.argmax(axis=0)) > _SIDE
-        second = np.where(apart, spike, 0.0).max(axis=0)
-        where = np.where(apart, 0.0, off).argmax(axis=0)  # its neighbours are out by it as well
+        second = np.where(apart, either, 0.0).max(axis=0)
+        where = np.where(apart, 0.0, off[inside]).argmax(axis=0)  # its neighbours are out as well
         moved = np.median(np.abs(np.diff(samples, axis=0)), axis=0)
-        far = np.stack([spike.max(axis=0), off[where, np.arange(len(where))], second])
-        return far, np.median(off, axis=0), moved, where + _SIDE
+        size = off[inside][where, np.arange(len(where))]
+        far = np.stack([spike.max(axis=0), size, second])
+        return far, np.median(off, axis=0), moved, where + 2 * _SIDE
+
+    def _steps(self, error: Array) -> Mask:
+        """Where a step to or from a sample explains more of the errors around it than a spike does.
+
+        Of the errors (n, signals) of what neighbours let expect, n - 4 samples.
+        """
+        nearest, next_ = self._weights.T
+        one, half, none = np.ones_like(next_), np.full_like(next_, 0.5), np.zeros_like(next_)
+        shapes = np.array([
+            [-next_, -nearest, one, -nearest, -next_],
+            [-next_, -half, half, next_, none],
+            [none, -next_, -half, half, next_],
+        ])  # fmt: skip
+        around = np.lib.stride_tricks.sliding_window_view(error, 2 * _SIDE + 1, axis=0)
+        along = np.einsum("tsk,pks->pts", around, shapes) ** 2
+        spike, *steps = along / np.square(shapes).sum(axis=1)[:, None]
+        return np.asarray(np.max(steps, axis=0) > spike)
 
     def state(self) -> dict[str, Any]:
         """What signals were like and what is unusual now, as plain JSON."""

@@ -95,6 +95,7 @@ def test_f2_renames_at_all_places(page: Workbench) -> None:
     assert page.typed_text() == before.replace("param R ", "param Rc ").replace("R:R", "R:Rc")
     page.press("z", control=True)  # one step back
     page.until(f"workbench.text === {before!r}")
+    page.until("workbench.answered === workbench.version")
     page.until("document.querySelectorAll('.relation:not(.stale *)').length === 1")
     page.until("document.querySelector('#drawing [data-node=R]')")
 

@@ -56,6 +56,29 @@ def test_a_step_is_no_spike() -> None:
     assert [one for one in _looked(samples) if one.kind == "spike"] == []
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_a_current_that_overshoots_at_each_step_of_a_command_has_no_spikes(seed: int) -> None:
+    """A first-order current behind a voltage that steps, with the part of a sample that the step
+    comes late in it: the first sample behind a step is a little above those that follow."""
+    draw = np.random.default_rng(seed)
+    count, turn = 20_000, 2243
+    at = np.arange(count)
+    side = np.where((at // turn) % 2 == 0, 1.0, -0.5)
+    peak = np.where(at % turn == 0, 0.06 * draw.uniform(0.5, 1.0, count), 0.0) * np.sign(side)
+    current = side + peak + 0.002 * draw.normal(size=count)
+    slow = 300.0 + np.cumsum(0.02 * draw.normal(size=(count, 2)), axis=0)
+    assert _looked(np.column_stack([slow[:, 0], current, slow[:, 1]])) == []
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_position_that_leaves_zero_has_no_burst(seed: int) -> None:
+    """Noise around zero is foretold best by zero; a way that is gone then is no noise."""
+    draw = np.random.default_rng(seed)
+    at = np.arange(15_000) * 0.002
+    ways = np.square(np.maximum(at - 1.0, 0.0))[:, None] * [1.0, 0.1, 0.001]
+    assert _looked(ways + 0.002 * draw.normal(size=ways.shape)) == []
+
+
 @pytest.mark.parametrize(("column", "name", "size"), [(0, "y", 0.5), (2, "T", 1.0)])
 def test_a_burst_is_told_once_and_ends(column: int, name: str, size: float) -> None:
     samples = _signals(5)
