@@ -483,7 +483,7 @@ class Chain:
             below = [self.steps[v] for v in self.resting_on(rows)]
             inside = [s for s in below if self.loops.open_in(s.closed)]
             costs, closing = ([self.system.equations[r] for r in own] for own in (about, rows))
-            missing += loop_unsolvable(costs, inside, closing, below)
+            missing += loop_unsolvable(self.pool, costs, inside, closing, below)
         missing += self.unaccounted([*[c.equation for c in closings], *[m.about for m in missing]])
         steps = tuple(self.steps[v] for v in sorted(self.steps, key=self.sequence.__getitem__))
         return ReducedSystem(

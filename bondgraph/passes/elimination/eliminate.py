@@ -32,8 +32,8 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem:
     derivatives, integrals come before loops. A loop that no one order of elimination solves in all
     modes is solved in each. A relation that cannot be had all the same is `missing` and costs no
     other: `loop-unsolvable` for a nonlinear loop without a closed solution, `loop-too-large` for a
-    linear one of ten thousand bonds, `initial-value-needed` where a relation needs an undeclared
-    initial value. Where nothing else can be had they are errors.
+    linear one of ten thousand bonds or with coefficients that move, `initial-value-needed` where a
+    relation needs an undeclared initial value. Where nothing else can be had they are errors.
     """
     result = _eliminated(system)
     if _lacking(result):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from bondgraph.algebra.affine import rest as rest_of_linear
 from bondgraph.ir.equation_system import Equation, EquationSystem
-from bondgraph.ir.expr import Expr, Kind, Op, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.nodes import has
 from bondgraph.ir.residuals import Missing, ReducedSystem, ResidualSet, Step
 from bondgraph.structural.matching import match
 from bondgraph.structural.rank import relations as independent
@@ -38,6 +40,7 @@ def initial_value_needed(equation: Equation, expr: Expr, steps: Sequence[Step]) 
 
 
 def loop_unsolvable(
+    pool: Pool,
     about: Sequence[Equation],
     inside: Sequence[Step],
     closing: Sequence[Equation],
@@ -47,6 +50,10 @@ def loop_unsolvable(
     equations = [*[s.equation for s in inside], *closing]
     laws = [e for e in equations if e.kind in ("law", "sensor")] or equations
     names = tuple(dict.fromkeys(e.name for e in laws))
+    rest = (*[s.equation for s in below], *closing)
+    if all(_linear(pool, e) for e in equations):
+        finding = _moving(laws)
+        return [Missing(equation, names, rest, finding) for equation in about]
     finding = Diagnostic(
         "loop-unsolvable",
         f"The loop of nonlinear equations through {', '.join(f'`{n}`' for n in names)} cannot be"
@@ -55,8 +62,27 @@ def loop_unsolvable(
         help="Measure a variable inside the loop, give one of its laws in the other"
         " direction, or a law that rises everywhere, which iteration can invert.",
     )
-    rest = (*[s.equation for s in below], *closing)
     return [Missing(equation, names, rest, finding) for equation in about]
+
+
+def _linear(pool: Pool, equation: Equation) -> bool:
+    """Whether an equation is linear in its variables, with coefficients that may move, not jump."""
+    expr = equation.zero if equation.rate is None else equation.rate
+    return not has([expr], Op.IF) and rest_of_linear(pool, expr, equation.variables) is not None
+
+
+def _moving(laws: Sequence[Equation]) -> Diagnostic:
+    """What is said of a linear loop with known signals as coefficients that could not be solved."""
+    names = list(dict.fromkeys(f"`{e.name}`" for e in laws))
+    others = f" and {len(names) - 3} more" if len(names) > 3 else ""
+    return Diagnostic(
+        "loop-too-large",
+        f"The linear loop through {', '.join(names[:3])}{others} is too large to be taken apart:"
+        " what multiplies its variables moves, and is differentiated with each that is left out.",
+        _labels(list(dict.fromkeys(e.origin for e in laws))[:3]),
+        help="Measure inside it: sensors cut it into parts that are solved alone. Or describe what"
+        " is far from every sensor by fewer elements.",
+    )
 
 
 def _too_large(loop: Sequence[Equation]) -> tuple[tuple[str, ...], Diagnostic]:

@@ -237,6 +237,22 @@ def test_a_nonlinear_loop_names_its_elements() -> None:
     assert all(f"`r{k}`" in error.message for k in (1, 2, 3, 4))
 
 
+def test_a_linear_loop_with_moving_coefficients_is_not_called_nonlinear() -> None:
+    """A counterflow exchanger of five cells, with measured flows: T' = m (T1 - T) + k (t - T)."""
+    cells = range(1, 6)
+    lines = [f"0:h{k} {{ -> C:Ch{k} = 0.4 }}\n0:c{k} {{ -> C:Cc{k} = 0.5 }}" for k in cells]
+    lines += [f"1:w{k} {{ <- h{k}; -> c{k}; -> R:r{k} = 1.7 }}" for k in cells]
+    lines += [f"Sf:a{k} = m*({f'h{k - 1}.e' if k > 1 else 'Th'} - h{k}.e) -> h{k}" for k in cells]
+    lines += [f"Sf:b{k} = n*({f'c{k + 1}.e' if k < 5 else 'Tc'} - c{k}.e) -> c{k}" for k in cells]
+    inputs = "input m; input n; input Th; input Tc"
+    text = "\n".join([f"model M {{ {inputs}", *lines, "De:y <- h5", "De:z <- c1", "}"])
+    with pytest.raises(CompileError) as caught:
+        _ = compiled(text).residuals
+    [error] = {d.message: d for d in caught.value.diagnostics if d.severity == "error"}.values()
+    assert error.code == "loop-too-large"
+    assert "linear loop" in error.message and "nonlinear" not in error.message
+
+
 def test_a_start_inside_a_nonlinear_law_must_be_declared() -> None:
     text = """model M {{
         param m = 2
