@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from itertools import chain
 
 from bondgraph.frontend.lexer import split
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.expr import CONSTANTS, ZERO_START, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Node, Sensor
 from bondgraph.ir.groups import Groups
 from bondgraph.ir.syntax import For, If, Input, Model, Param, Part
@@ -142,7 +142,8 @@ def report_parts(graph: BondGraph, report: Report) -> None:
     """
     parts = _parts(graph)
     measured = _measured(graph, parts)
-    driven = [_is_driven(graph, part) for part in parts]
+    rest = _Rest(graph)
+    driven = [_is_driven(graph, part, rest) for part in parts]
     seen: set[tuple[Span, ...]] = set()
     for part, sensors, moving in zip(parts, measured, driven, strict=True):
         places = tuple([graph.nodes[i].origin for i in part])
@@ -269,17 +270,14 @@ def _measured(graph: BondGraph, parts: list[list[int]]) -> list[list[Sensor]]:
     return found
 
 
-def _is_driven(graph: BondGraph, part: list[int]) -> bool:
+def _is_driven(graph: BondGraph, part: list[int], rest: _Rest) -> bool:
     """Whether rest is no solution: an input or a number in a law keeps something in motion."""
     nodes = [graph.nodes[i] for i in part]
     if any(node.keyword == "port" for node in nodes):
         return True  # the world may drive it
-    pool = Pool()  # what is worked out here leaves no trace in the order of the graph's own
     sources = [node for node in nodes if node.kind in ("Se", "Sf")]
-    nothing = {v.symbol for v in graph.values if v.value is graph.pool.zero}
-    reads = {symbol: sensor.reads for symbol, sensor in graph.readings.items()}
     return any(
-        _at_rest(law.zero, pool, nothing, reads) is not pool.zero
+        rest.of(law.zero) is not rest.pool.zero
         for node in chain(sources, nodes)  # mostly a source settles it
         for law in node.laws
     )
@@ -291,34 +289,65 @@ _RESTING = frozenset(
 )
 
 
-def _at_rest(
-    expr: Expr, pool: Pool, nothing: Container[Expr], reads: Mapping[Expr, Expr]
-) -> Expr | None:
-    """An expression with zero for all signals but inputs, and for what is declared zero.
+class _Rest:
+    """What expressions are at rest: zero for all signals but inputs, and for what is declared zero.
 
-    `reads` are what readings are made of. None where the expression has no value there.
+    A reading is what its sensor makes of the signals. An integral of what does not vanish leaves
+    its start whatever that is, so it stands for itself, as an input does.
     """
-    new: dict[Expr, Expr] = {}
-    try:
-        for node in topological([expr]):
-            if node.op is Op.SYM:
-                symbol = node.symbol
-                if node in reads:
-                    others = {r: e for r, e in reads.items() if r is not node}
-                    read = _at_rest(reads[node], pool, nothing, others)
-                    if read is None:
+
+    def __init__(self, graph: BondGraph) -> None:
+        self.pool = Pool()  # what is worked out here leaves no trace in the order of the graph's
+        self._nothing = {v.symbol for v in graph.values if v.value is graph.pool.zero}
+        integrals = {i.symbol: i.integrand for i in graph.integrals}
+        behind = {r: sensor.reads for r, sensor in graph.readings.items()} | integrals
+        self._known: dict[Expr, Expr | None] = {}
+        order, start = _innermost_first(behind), self.pool.symbol(ZERO_START, Kind.INITIAL)
+        for symbol in order * 2:  # in a loop, the first only now has what the last one is
+            value = self.of(behind[symbol])
+            if symbol in integrals and value is not None and value is not self.pool.zero:
+                value = self.pool.integral(value, start)
+            self._known[symbol] = value
+
+    def of(self, expr: Expr) -> Expr | None:
+        """The expression at rest; None where it has no value there."""
+        new: dict[Expr, Expr] = {}
+        try:
+            for node in topological([expr]):
+                if node.op is Op.SYM:
+                    value = self._symbol(node)
+                    if value is None:
                         return None
-                    new[node] = read
-                    continue
-                rests = symbol.kind in _RESTING or node in nothing
-                new[node] = pool.zero if rests else pool.symbol(symbol.name, symbol.kind)
-            elif node.op is Op.NUM:
-                new[node] = pool.num(node.number)
-            else:
-                new[node] = pool.rebuild(node, tuple([new[a] for a in node.args]))
-    except ZeroDivisionError:
-        return None
-    return new[expr]
+                    new[node] = value
+                elif node.op is Op.NUM:
+                    new[node] = self.pool.num(node.number)
+                else:
+                    new[node] = self.pool.rebuild(node, tuple([new[a] for a in node.args]))
+        except ZeroDivisionError:
+            return None
+        return new[expr]
+
+    def _symbol(self, node: Expr) -> Expr | None:
+        if node in self._known:
+            return self._known[node]
+        rests = node.symbol.kind in _RESTING or node in self._nothing
+        return self.pool.zero if rests else self.pool.symbol(*node.symbol)
+
+
+def _innermost_first(behind: Mapping[Expr, Expr]) -> list[Expr]:
+    """The symbols, each after those that what is behind it is made of, but for loops."""
+    found: dict[Expr, None] = {}
+    met: set[Expr] = set()
+    stack = [(symbol, False) for symbol in behind]
+    while stack:
+        symbol, finished = stack.pop()
+        if finished:
+            found[symbol] = None
+        elif symbol not in met:
+            met.add(symbol)
+            stack.append((symbol, True))
+            stack += [(s, False) for s in symbols(behind[symbol]) if s in behind]
+    return list(found)
 
 
 def _may_start(graph: BondGraph, part: list[int]) -> bool:

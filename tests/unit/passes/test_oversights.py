@@ -44,6 +44,20 @@ SILENT = {
     "driven by a number in a law": "1:j; j -> R:S { e = f + 1 V }; j -> Df:z",
     "driven by a law that is not zero at rest": "1:j; j -> R:S { e = exp(f) }; j -> Df:z",
     "driven by a law without a value at rest": "1:j; j -> R:S { e = 1/f }; j -> Df:z",
+    "driven by an integral of an input": "input T; Se:F = int(T) -> 1:j; j -> R:S; j -> Df:z; "
+    "param S = 1",
+    "driven by an integral of a number": "Se:F = int(3) -> 1:j; j -> R:S; j -> Df:z; param S = 1",
+    "driven by what is made of an integral": "input T; Se:F = T*sin(2*int(T)) -> 1:j; j -> R:S; "
+    "j -> Df:z; param S = 1",
+    "driven by an integral of an integral": "input T; Se:F = int(T*int(T)) -> 1:j; j -> R:S; "
+    "j -> Df:z; param S = 1",
+    "driven by an integral of what a sensor says of an input": (
+        "input set; param S = 1; sensor up = set - z; Sf:n = int(up) -> 0:j; j -> R:S; j -> De:z"
+    ),
+    "driven by a sensor of an integral in a loop": (
+        "input set; param S = 1; sensor up = int(set - z - up); Sf:n = up -> 0:j; j -> R:S; "
+        "j -> De:z"
+    ),
     "a unknown input drives": "input F unknown; Se:F -> 1:j; j -> R:S; j -> Df:z; param S = 1",
 }
 
@@ -64,6 +78,15 @@ SPOKEN = {
     "driven by itself": ("MSe:n = z*S -> 1:j; j -> R:S; j -> Df:z", "part-not-driven", "warning"),
     "an input that only modulates": (
         "input a; 1:j; j -> MR:S { e = a*S*f }; j -> Df:z", "part-not-driven", "warning",
+    ),
+    "an integral of what rests": (
+        "MSe:n = S*int(z*int(z)) -> 1:j; j -> R:S; j -> Df:z", "part-not-driven", "warning",
+    ),
+    "an integral of an input that only modulates": (
+        "input a; 1:j; j -> MR:S { e = int(a)*S*f }; j -> Df:z", "part-not-driven", "warning",
+    ),
+    "an integral of a source of zero": (
+        "const n0 = 0; Se:n = int(n0) -> 1:j; j -> R:S; j -> Df:z", "part-not-driven", "warning",
     ),
     "a diode at rest": (
         "1:j; j -> R:d { e = S*(exp(f) - 1) }; j -> Df:z", "part-not-driven", "warning",
