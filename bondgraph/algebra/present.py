@@ -4,14 +4,16 @@ shared parts named by the variable of the model that they are."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.nodes import constant, rebuilt
+from bondgraph.ir.past import past_of
 from bondgraph.ir.residuals import Residual
 from bondgraph.notation.formula import Reader
+from bondgraph.notation.lettering import Spare
 from bondgraph.notation.line import Line
 from bondgraph.text.tuples import NamedTuple
 
@@ -106,13 +108,14 @@ class Parts(NamedTuple):
     """A relation as nodes: `named` are its shared parts, each with the name that stands for it.
 
     `order` has all nodes, arguments first; `variables` names every node that is the value of a
-    variable of the model.
+    variable of the model. `taken` are names that no part may be given.
     """
 
     root: Expr
     order: tuple[Expr, ...]
     named: dict[Expr, str]
     variables: dict[Expr, str]
+    taken: frozenset[str] = frozenset()
 
 
 def parts(graph: BondGraph, residual: Residual) -> Parts:
@@ -124,11 +127,34 @@ def parts(graph: BondGraph, residual: Residual) -> Parts:
     for step, value in zip(known, values, strict=True):
         if value.args:
             names.setdefault(value, step.variable.symbol.name)
-    return shared(root, names)
+    return shared(root, names, _written(graph, residual))
 
 
-def shared(root: Expr, variables: dict[Expr, str]) -> Parts:
+def _written(graph: BondGraph, residual: Residual) -> frozenset[str]:
+    """What its author calls something in a model, and the variables of a relation."""
+    own = [*graph.names, *[step.variable.symbol.name for step in residual.steps]]
+    kinds = (graph.values, graph.inputs, graph.sensors, graph.lets)
+    return frozenset([*own, *[item.name for items in kinds for item in items]])
+
+
+def _names_in(order: Iterable[Expr]) -> Iterator[str]:
+    """All names that an expression is written with: of symbols, starts, roots and tables."""
+    for node in order:
+        if node.op in (Op.SYM, Op.INT):
+            name = node.symbol.name
+            while (past := past_of(name)) is not None:  # delay(x1, 0.1) is written with x1
+                name = past[0]
+            yield name
+        elif node.op is Op.ROOT:
+            yield node.root.name
+        elif node.op is Op.FN:
+            yield node.name.rpartition(":")[2]
+
+
+def shared(root: Expr, variables: dict[Expr, str], written: frozenset[str] = frozenset()) -> Parts:
     """The parts of an expression that occur more than once, named by `variables` or x1, x2, ...
+
+    No part is called like anything that occurs in the expression, or is `written` in its model.
 
     >>> from bondgraph.ir.expr import Kind
     >>> p = Pool(); x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
@@ -143,11 +169,13 @@ def shared(root: Expr, variables: dict[Expr, str]) -> Parts:
         size[node] = 1 + sum(min(size[a], _SHORT) for a in node.args)
         for arg in node.args:
             uses[arg] += 1
+    taken = written.union(_names_in(order), variables.values())
+    spare = Spare(taken)
     chosen: dict[Expr, str] = {}
     for node in order:
         if uses[node] > 1 and size[node] > _SHORT and node.op is not Op.NUM:
-            chosen[node] = variables.get(node) or f"x{len(chosen) + 1}"
-    return Parts(root, tuple(order), chosen, variables)
+            chosen[node] = variables.get(node) or spare.name(len(chosen) + 1)
+    return Parts(root, tuple(order), chosen, variables, taken)
 
 
 def closed_form(
@@ -157,7 +185,7 @@ def closed_form(
 
     `starts` are the graph's initial values, for who asks for many relations of one graph.
     """
-    root, order, chosen, _ = parts(graph, residual)
+    root, order, chosen, *_ = parts(graph, residual)
     reader, line = Reader(chosen, graph.initial_values() if starts is None else starts), Line()
     where = [
         (chosen[node], line.spell(reader.definition(node)).text)

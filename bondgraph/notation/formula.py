@@ -107,6 +107,19 @@ class Reader:
             self.of(part)
         return self._read(expr)
 
+    def vanishing(self, node: Expr, name: str) -> Formula:
+        """What vanishes where a root has its value, which is called `name` in it."""
+        for part in self._parts(node):
+            self.of(part)
+        return self._root(node, name)[1]
+
+    def _root(self, node: Expr, name: str) -> tuple[Formula, Formula]:
+        """The unknown of a root, and what vanishes where it has its value."""
+        root = node.root
+        inside = Reader({root.unknown: name}, self.starts)
+        inside._done.update({p: self._done[a] for p, a in zip(root.places, node.args, strict=True)})
+        return inside.of(root.unknown), inside.of(root.zero)
+
     def _parts(self, node: Expr) -> tuple[Expr, ...]:
         values = self.starts if node.op is Op.INT else self._values if node.op is Op.SYM else None
         value = values.get(node.symbol) if values else None
@@ -143,10 +156,7 @@ class Reader:
             case Op.LOGIC:
                 return Formula(Shape.LOGIC, parts, node.name)
             case Op.ROOT:
-                inside = Reader({node.root.unknown: node.root.name}, self.starts)
-                inside._done.update(zip(node.root.places, parts, strict=True))
-                found = inside.of(node.root.unknown), inside.of(node.root.zero)
-                return Formula(Shape.ROOT, found, node.root.guess)
+                return Formula(Shape.ROOT, self._root(node, node.root.name), node.root.guess)
 
     def _sum(self, node: Expr) -> Formula:
         coefficients, parts = [], []

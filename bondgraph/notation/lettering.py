@@ -29,6 +29,29 @@ class Letter(NamedTuple):
     where: tuple[str, ...]
 
 
+class Spare:
+    """Names x1, x2, ... for parts of formulas, none of which looks like one that is `taken`.
+
+    However it is set: x_1, x[1] and m.x1 all become the letter x with a small 1.
+
+    >>> spare = Spare(["x1", "m.x_2", "x[4]", "x5.m"])
+    >>> [spare.name(k) for k in (1, 2, 3)]
+    ['x3', 'x5', 'x6']
+    """
+
+    def __init__(self, taken: Iterable[str]) -> None:
+        last = {name.rpartition(".")[2] for name in taken}
+        alike = [split_name(name) for name in last if name.startswith("x")]  # the others are not x
+        self._taken = {below for base, below in alike if base == "x"}
+
+    def name(self, number: int) -> str:
+        """The name with this number, or with the next one that is free; it is taken then."""
+        while str(number) in self._taken:
+            number += 1
+        self._taken.add(str(number))
+        return f"x{number}"
+
+
 def letters(names: Iterable[str]) -> dict[str, Letter]:
     """The letter of every name, no two alike; of a path the fewest parts that keep it apart.
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from bondgraph.algebra.present import Parts
 from bondgraph.ir.expr import Expr, Op, Symbol, topological
 from bondgraph.notation.formula import Reader
-from bondgraph.notation.lettering import Letter, letters, split_name
+from bondgraph.notation.lettering import Letter, Spare, letters, split_name
 from bondgraph.notation.line_breaks import pieces
 from bondgraph.notation.mathml import MathML, escape, sign
 from bondgraph.notation.speller import Spelled
@@ -50,9 +50,12 @@ class Typesetter:
         lines = [_row(head, pieces(speller, reader.definition(parts.root), room))]
         for node in reversed(parts.order):
             if node in named and node is not parts.root:
-                head, part = self.name(named[node]).text, reader.definition(node)
+                head = self.name(named[node]).text
                 if node.op is Op.ROOT:  # no formula gives it: where it makes an expression vanish
-                    head, part = f"{head}<mtext>&#xa0;where&#xa0;</mtext><mn>0</mn>", part.parts[1]
+                    head = f"{head}<mtext>&#xa0;where&#xa0;</mtext><mn>0</mn>"
+                    part = reader.vanishing(node, named[node])
+                else:
+                    part = reader.definition(node)
                 lines.append(_row(head, pieces(speller, part, room)))
         return lines
 
@@ -83,12 +86,15 @@ def _row(head: str, parts: list[str]) -> str:
 def readable(parts: Parts) -> dict[Expr, str]:
     """Names for the shared parts, for implicit numbers, and for what is nested too deep to read."""
     named = dict(parts.named)
-    taken = {*named.values(), *(v for v in parts.variables.values())}
+    spare = Spare(parts.taken.union(named.values()))
     depth: dict[Expr, int] = {}
     count = len(named)
     for node in parts.order:
-        if node.op is Op.ROOT:
-            named[node] = node.root.name
+        if node.op is Op.ROOT:  # by the variable that it is, unless another part is called so
+            named.pop(node, None)
+            another = node.root.name in named.values()
+            count += another
+            named[node] = spare.name(count) if another else node.root.name
         own = 0 if node in named else max([depth[a] for a in node.args], default=0)
         deeper = node.op in (Op.FN, Op.INT, Op.IF, Op.DER) and bool(node.args[0].args)
         deeper |= node.op is Op.MUL and any(
@@ -97,9 +103,9 @@ def readable(parts: Parts) -> dict[Expr, str]:
         depth[node] = own + deeper
         if depth[node] > _NESTED and node is not parts.root and node not in named:
             name = parts.variables.get(node)
-            while name is None or (name in taken and name not in parts.variables.values()):
+            if name is None or name in named.values():
                 count += 1
-                name = f"x{count}"
+                name = spare.name(count)
             named[node] = name
             depth[node] = 0
     return named

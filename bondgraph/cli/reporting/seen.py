@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bondgraph.algebra.present import parts, shared
+from bondgraph.algebra.present import Parts, parts, shared
 from bondgraph.backends.report.content import Effect, Pairs, Seen
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.reporting.relations import LONGEST
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from bondgraph.backends.report.formulas import Typesetter
-    from bondgraph.ir.expr import Expr
     from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.log import Array
@@ -60,11 +59,11 @@ def seen(
     spent = 0
     by_fault = {f: i for i, f in enumerate(compilation.graph.faults)}
     for relation in compilation.residuals:
-        values = parts(compilation.graph, relation.residual).variables
+        form = parts(compilation.graph, relation.residual)
         for fault in relation.faults:
             html, too_long = "", "not written out here"
             if spent < _ROOM:
-                html, too_long = _formula(typesetter, relation, fault, values)
+                html, too_long = _formula(typesetter, relation, fault, form)
                 spent += len(html)
             found = smallest.get((fault, relation.name))
             told = _told(found, units.get(fault, ""))
@@ -136,7 +135,7 @@ def _answers(
 
 
 def _formula(
-    typesetter: Typesetter, relation: Relation, fault: str, values: dict[Expr, str]
+    typesetter: Typesetter, relation: Relation, fault: str, form: Parts
 ) -> tuple[str, str]:
     """The derivative as HTML, or why it is not written."""
     slope = relation.sensitivity_node(fault)
@@ -147,7 +146,8 @@ def _formula(
         f"<mfrac><mrow><mo>∂</mo>{typesetter.name(relation.name).text}</mrow>"
         f"<mrow><mo>∂</mo>{typesetter.name(fault).text}</mrow></mfrac>"
     )
-    return "".join(typesetter.equations(head, shared(slope, values), _WIDE)), ""
+    named = shared(slope, form.variables, form.taken)
+    return "".join(typesetter.equations(head, named, _WIDE)), ""
 
 
 def _told(found: Smallest | None, unit: str) -> tuple[str, str, str]:
