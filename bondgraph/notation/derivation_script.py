@@ -99,6 +99,13 @@ _LATE = '''def delay(x, seconds):
     return x.subs(t, t - seconds)'''
 
 
+#: What a script calls its own things, and what it uses of Python: no value may be called so.
+_RESERVED = frozenset(
+    "sp t signal D Int solve put_in known vanishes check order numerator lower delay relation"
+    " factor Rational any classmethod isinstance max print sorted str".split()
+)
+
+
 class Cell(NamedTuple):
     """A cell of a notebook: `kind` is markdown or code."""
 
@@ -122,7 +129,8 @@ class _Script:
         self.zero = derivation.pool.zero
         used = [e for s in derivation.steps for e in (s.zero, s.unknown, s.value, s.factor) if e]
         self.symbols = symbols(*used, derivation.arr, *derivation.starts.values())
-        self.names = Names(s.symbol.name for s in self.symbols)
+        rows = [f"row_{step.number}" for step in derivation.steps]
+        self.names = Names((s.symbol.name for s in self.symbols), _RESERVED.union(rows))
         self.functions: dict[str, str] = {}
         self.used: dict[str, None] = {}
         self.roots: dict[str, None] = {}
@@ -156,7 +164,7 @@ class _Script:
         self.roots.update(dict.fromkeys(name for name, _, _ in found.implicit))
         text = found.expr
         for name, part in reversed(found.defs):
-            text = text.replace(name, f"({part})")
+            text = re.sub(rf"\b{name}\b", f"({part})", text)  # `t1`, but not inside `port1`
         return text
 
     def _code(self, step: DerivationStep) -> str:
@@ -207,7 +215,7 @@ class _Script:
 
     def _compared(self) -> str:
         own = self.derivation
-        name = self.names.add(own.residual)
+        name = self.names.add(f"{own.residual}??")  # r1, and r1_ beside a value that is called r1
         return (
             f"# what the compiler says\n{name} = {self._text(own.arr)}\n"
             f"factor = sp.sympify({self._text(own.factor)})\n\n"
@@ -239,7 +247,9 @@ class _Script:
             rows = [(self.names.by_model[s.symbol.name], s.symbol.name) for s in own]
             if what == "unknowns":
                 rows += [(name, self.names.known_as.get(name, name)) for name in self.roots]
-            told = [f"{p} = {make.format(json.dumps(n))}" for p, n in rows if p in self.used]
+            # a constant `t` is not the time, which SymPy would take for the same symbol
+            spelled = [(p, json.dumps("constant t" if n == "t" else n)) for p, n in rows]
+            told = [f"{p} = {make.format(n)}" for p, n in spelled if p in self.used]
             if told:
                 groups[what] = "\n".join([f"# {what}", *told])
         return "\n\n\n".join(parts) + "\n\n\n" + "\n".join(

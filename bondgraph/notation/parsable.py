@@ -55,14 +55,16 @@ class Parsable(NamedTuple):
 class Names:
     """Names of the model as Python identifiers: `.` and `[i]` become `__`, keywords get a `_`.
 
+    So do names that are `reserved`, because the code around calls something else so.
+
     >>> Names(["m[1].wh.ws", "lambda", "D"]).by_model
     {'m[1].wh.ws': 'm__1__wh__ws', 'lambda': 'lambda_', 'D': 'D_'}
     """
 
-    def __init__(self, names: Iterable[str]) -> None:
+    def __init__(self, names: Iterable[str], reserved: Iterable[str] = ()) -> None:
         self.by_model: dict[str, str] = {}
         self.known_as: dict[str, str] = {}  # inner unknowns by identifier: variable of the model
-        self._taken: set[str] = set()
+        self._taken = set(reserved)
         for name in names:
             self.add(name)
 

@@ -103,6 +103,33 @@ def test_steps_beyond_the_straight_path(case: str, expected: set[str]) -> None:
     assert run(found.script).startswith("the derived relation is r1 times ")
 
 
+def law(text: str, inertia: str, params: str) -> Derivations:
+    """The derivation of 0 = F - e - inertia*D(v), for the law e of a resistor."""
+    declared = "; ".join(f"param {name} = 2" for name in params.split())
+    body = f"1:a {{ <- Se:F; -> I:m = {inertia}; -> R:d {{ e = {text} }}; -> Df:v }}"
+    return bondgraph.compile(text=f"bg 1\nmodel M {{ {declared}\n{body} }}\n").derivation("r1")
+
+
+def test_a_script_calls_no_value_like_something_of_its_own() -> None:
+    params = "sp t known relation row_1 r1"
+    found = law("tanh(known*f + r1)*sin(t*f + relation)", "sp*row_1", params)
+    assert run(found.script) == "the derived relation is r1 times 1\n"
+    for name in ("sp", "known", "relation", "row_1"):
+        assert f'\n{name}_ = sp.Symbol("{name}", real=True)\n' in found.script
+    # SymPy takes two symbols of one name for the same: D(t*v) would be v + t*D(v)
+    assert '\nt_ = sp.Symbol("constant t", real=True)\n' in found.script
+
+
+def test_a_part_of_a_long_expression_is_not_put_into_a_longer_name() -> None:
+    # 2**7 times the innermost sum: a text of 400 nodes and more calls shared parts t1, t2, ...
+    text = "(f + port1)"
+    for _ in range(7):
+        text = f"({text} + sin{text})"
+    found = law(text, "port1", "port1")
+    assert "por(" not in found.script
+    assert run(found.script) == "the derived relation is r1 times 1\n"
+
+
 def test_a_relation_of_each_position_has_a_derivation_of_each() -> None:
     found = derived(CASES / "eliminate" / "each_mode.bg")
     assert [d.switches for d in found] == [(("on", True),), (("on", False),)]
