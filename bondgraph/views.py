@@ -49,7 +49,10 @@ class Relation:
 
     @cached_property
     def expr(self) -> Any:
-        """The relation as a SymPy expression: signals are functions of t, parameters symbols."""
+        """The relation as a SymPy expression: signals are functions of t, parameters symbols.
+
+        A parameter that is called `t` is the symbol `constant t`, not the time.
+        """
         from bondgraph.algebra.present import tidy
         from bondgraph.algebra.symbolic import to_sympy
 

@@ -56,15 +56,15 @@ def to_sympy(
 ) -> Any:
     """The expression as a SymPy one, nested as it is.
 
-    Parameters become real symbols, known signals functions of `t`, D a `Derivative`, and an
-    integral from the start `Integral(x, (t, 0, t)) + x0`. `leaves` overrides single nodes,
-    `starts` gives the values from which integrals begin.
+    Parameters become real symbols, one named `t` that of `constant t`, known signals functions of
+    the time `t`, D a `Derivative`, and an integral from the start `Integral(x, (t, 0, t)) + x0`.
+    `leaves` overrides single nodes, `starts` gives the values from which integrals begin.
     """
     begins = starts or {}
 
     def integral(node: Expr, args: list[Any]) -> Any:
         start = begins.get(node.symbol)
-        own = sp.Symbol(node.symbol.name, real=True) if start is None else point.value(start)
+        own = _constant(node.symbol.name) if start is None else point.value(start)
         return sp.Integral(args[0], (t, 0, t)) + own
 
     point: Evaluated[Any] = Evaluated({**_OPERATIONS, Op.INT: integral}, _symbol, leaves)
@@ -78,7 +78,12 @@ def _symbol(node: Expr) -> Any:
         return sp.Function(of, real=True)(t - sp.Rational(seconds.numerator, seconds.denominator))
     if node.symbol.kind in KNOWN_SIGNALS:
         return sp.Function(node.symbol.name, real=True)(t)
-    return sp.Symbol(node.symbol.name, real=True)
+    return _constant(node.symbol.name)
+
+
+def _constant(name: str) -> Any:
+    # SymPy would take a parameter that is called t for the time
+    return sp.Symbol("constant t" if name == "t" else name, real=True)
 
 
 def _sum(node: Expr, args: list[Any]) -> Any:

@@ -151,3 +151,15 @@ def test_a_long_chain_stays_linear() -> None:
         x = p.add((1, x), (1, p.mul(R, x)), (1, p.mul(L, p.der(x))))
     found = sensitivity(p, x, [R, L])
     assert all(len(topological([s])) < 20_000 for s in found.values())
+
+
+def test_a_parameter_called_t_is_not_the_time() -> None:
+    """F - t v' - 3 v: its slope by t is -v', in which nothing else has become t."""
+    text = "model M { param t = 2\n1:a { <- Se:F; -> I:m = t; -> R:d = 3; -> Df:v } }"
+    (relation,) = compiled(text).residuals
+    time, own = sp.Symbol("t", real=True), sp.Symbol("constant t", real=True)
+    F, v = (sp.Function(name, real=True)(time) for name in ("F", "v"))
+    wanted = F - own * sp.diff(v, time) - 3 * v
+    assert sp.simplify(relation.expr / wanted) in (1, -1)
+    slope = relation.sensitivity("t")
+    assert sp.simplify(slope / sp.diff(v, time)) in (1, -1)
