@@ -64,7 +64,7 @@ def to_sympy(
 
     def integral(node: Expr, args: list[Any]) -> Any:
         start = begins.get(node.symbol)
-        own = _constant(node.symbol.name) if start is None else point.value(start)
+        own = _parameter(node.symbol.name) if start is None else point.value(start)
         return sp.Integral(args[0], (t, 0, t)) + own
 
     point: Evaluated[Any] = Evaluated({**_OPERATIONS, Op.INT: integral}, _symbol, leaves)
@@ -78,10 +78,10 @@ def _symbol(node: Expr) -> Any:
         return sp.Function(of, real=True)(t - sp.Rational(seconds.numerator, seconds.denominator))
     if node.symbol.kind in KNOWN_SIGNALS:
         return sp.Function(node.symbol.name, real=True)(t)
-    return _constant(node.symbol.name)
+    return _parameter(node.symbol.name)
 
 
-def _constant(name: str) -> Any:
+def _parameter(name: str) -> Any:
     # SymPy would take a parameter that is called t for the time
     return sp.Symbol("constant t" if name == "t" else name, real=True)
 

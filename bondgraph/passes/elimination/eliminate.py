@@ -11,6 +11,7 @@ from bondgraph.ir.residuals import Missing, ReducedSystem
 from bondgraph.passes.elimination.chaining import Chain, Strategy
 from bondgraph.passes.elimination.cost import FREE_START, ITERATION
 from bondgraph.passes.elimination.each_mode import each_mode
+from bondgraph.passes.elimination.measured_parts import with_sensors
 from bondgraph.passes.elimination.regroup import regroup
 from bondgraph.passes.elimination.shortfall import tell
 from bondgraph.text.diagnostic import Report
@@ -26,15 +27,17 @@ _OTHER_STRATEGIES = (
 def eliminate(system: EquationSystem, report: Report) -> ReducedSystem:
     """Compute every variable that sensors and sources reach, and keep what is left over.
 
-    Near-linear in the number of bonds. Derivatives are avoided as far as possible; where that makes
-    long detours, relations of the same order with shorter paths are taken, and where it misses an
-    initial value, no integral without one is used; where a loop cannot be solved, or only with more
-    derivatives, integrals come before loops. A loop that no one order of elimination solves in all
-    modes is solved in each. A relation that cannot be had all the same is `missing` and costs no
-    other: `loop-unsolvable` for a nonlinear loop without a closed solution, `loop-too-large` for a
-    linear one of ten thousand bonds or with coefficients that move, `initial-value-needed` where a
-    relation needs an undeclared initial value. Where nothing else can be had they are errors.
+    Near-linear in the number of bonds. A sensor stands for the function that it measures.
+    Derivatives are avoided as far as possible; where that makes long detours, relations of the same
+    order with shorter paths are taken, and where it misses an initial value, no integral without
+    one is used; where a loop cannot be solved, or only with more derivatives, integrals come before
+    loops. A loop that no one order of elimination solves in all modes is solved in each. A relation
+    that cannot be had all the same is `missing` and costs no other: `loop-unsolvable` for a
+    nonlinear loop without a closed solution, `loop-too-large` for a linear one of ten thousand
+    bonds or with coefficients that move, `initial-value-needed` where a relation needs an
+    undeclared initial value. Where nothing else can be had they are errors.
     """
+    system = with_sensors(system)
     result = _eliminated(system)
     if _lacking(result):
         result = each_mode(system, _eliminated) or result

@@ -237,6 +237,39 @@ def test_a_nonlinear_loop_names_its_elements() -> None:
     assert all(f"`r{k}`" in error.message for k in (1, 2, 3, 4))
 
 
+def test_a_limited_command_that_is_logged_is_not_turned_round() -> None:
+    """Two laws hold its value; what is limited is known of no value at the limit."""
+    c = compiled(
+        """model M { param R = 3; param L = 2; param k = 2; param ci = 5
+        input r
+        0:integ { -> C:ci(q0 = 0); <- Sf:into = r - k*u }
+        let u = max(min(integ.e, 5), -5)
+        1:a { <- Se:amp = u; -> R:R; -> I:L; -> Df:y }
+        sensor logged = u
+        sensor again = u }"""
+    )
+    texts = {relation.text for relation in c.residuals}
+    limited = "logged - max(min(Int(r - k*logged)/ci, 5), -5)"
+    assert texts in ({"logged - R*y - L*D(y)", limited, sign} for sign in
+                     ("again - logged", "logged - again"))  # fmt: skip
+    assert not c.residuals.missing
+
+
+def test_a_measured_function_stays_unsolved_where_it_is_made_of_more() -> None:
+    """Anti-windup by back-calculation: what was limited is used beside the limited value."""
+    c = compiled(
+        """model M { param R = 3; param L = 2; param kb = 1
+        input r
+        0:integ { -> C:ci(q0 = 0) = 1; <- Sf:into = r - y - kb*(u - us) }
+        let u = 4*integ.e
+        let us = max(min(u, 5), -5)
+        1:a { <- Se:amp = us; -> R:R; -> I:L; -> Df:y }
+        sensor logged = us }"""
+    )
+    assert [relation.text for relation in c.residuals] == ["logged - R*y - L*D(y)"]
+    assert [m.finding.code for m in c.residuals.missing] == ["loop-unsolvable"]
+
+
 def test_a_linear_loop_with_moving_coefficients_is_not_called_nonlinear() -> None:
     """A counterflow exchanger of five cells, with measured flows: T' = m (T1 - T) + k (t - T)."""
     cells = range(1, 6)
