@@ -141,6 +141,10 @@ class Operators:
         >>> work.lowered([p.add((1, p.der(x)), (3, x)), p.add((1, p.der(z)), (-1, y))]).expr
         (x*D(y) - 3*x*y) - y
         """
+        known = [n for n in topological(rows) if n.op is Op.INT and not _torn(n)]
+        atoms = {n: self.pool.symbol(f"int#{n.id}", Kind.SENSOR) for n in known}
+        rows = self.pool.substitute(rows, atoms)  # its derivative is what it is the integral of
+        integrals = {atom: n for n, atom in atoms.items()}
         for form in (self._sum, self._inward):
             shaped = [form(row) for row in rows]
             for plain in (True, False):
@@ -153,11 +157,11 @@ class Operators:
                             continue
                         freed = self._freed(other, *found, form)
                         if freed is not None:
-                            return Lowered(row, by, freed)
+                            return Lowered(row, by, self.pool.substitute([freed], integrals)[0])
         return None
 
     def _sum(self, row: Expr) -> Expr | None:
-        """The row as a sum of derivatives; None where it is too long or holds integrals."""
+        """The row as a sum of derivatives; None where it is too long or holds a torn integral."""
         if row not in self._summed:
             pool = self.pool
             try:

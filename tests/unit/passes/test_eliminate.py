@@ -270,6 +270,24 @@ def test_a_measured_function_stays_unsolved_where_it_is_made_of_more() -> None:
     assert [m.finding.code for m in c.residuals.missing] == ["loop-unsolvable"]
 
 
+@pytest.mark.parametrize(
+    ("force", "known"),
+    [
+        ("int(T)", "Int(T)"),
+        ("T*sin(int(T))", "T*sin(Int(T))"),
+        ("int(int(T) + T)", "Int(T + Int(T))"),
+    ],
+)
+def test_known_integrals_beside_a_differential_loop(force: str, known: str) -> None:
+    """m a = F - c v |v|, and a = v': with v from the first one, whatever F is made of."""
+    c = compiled(
+        f"""model M {{ param m = 3; param c = 0.5; input T
+        1:x {{ <- Se:F = {force}; -> I:mx = m; -> R:d {{ e = c*f*abs(f) }} }}
+        sensor a = der(x.f) }}"""
+    )
+    assert [relation.text for relation in c.residuals] == [f"a - D(ssqrt(({known} - m*a)/c))"]
+
+
 def test_a_linear_loop_with_moving_coefficients_is_not_called_nonlinear() -> None:
     """A counterflow exchanger of five cells, with measured flows: T' = m (T1 - T) + k (t - T)."""
     cells = range(1, 6)
