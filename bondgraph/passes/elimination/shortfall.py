@@ -26,7 +26,8 @@ def initial_value_needed(equation: Equation, expr: Expr, steps: Sequence[Step]) 
     storage, origin, name = equation.name, equation.origin, "q0"
     if step is not None:
         storage, origin = step.equation.name, step.equation.origin
-        name = "q0" if step.variable.symbol.name.endswith(".q") else "p0"
+        _, dot, state = step.variable.symbol.name.partition(f"{storage}.")
+        name = f"{state}0" if dot else name  # of a field with the port: `el.q0`
     finding = Diagnostic(
         "initial-value-needed",
         f"The relation at `{equation.name}` needs the initial value of"

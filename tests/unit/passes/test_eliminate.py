@@ -318,6 +318,24 @@ def test_a_start_inside_a_nonlinear_law_must_be_declared() -> None:
     assert len(compiled(text.format(start="(q0 = 1)")).residuals) == 1
 
 
+def test_the_start_of_a_field_is_asked_for_at_its_port() -> None:
+    """A plate on a spring, with a charge that its voltage does not tell, and its velocity known."""
+    text = """model M {{
+        param k = 2
+        input drive unknown
+        C:top({start}m.q0 = 0) {{ port el; port m; el.e = (el.q + 2*sin(el.q))*(3 - m.q);
+            m.e = -el.q^2/2 + cos(el.q) + k*m.q }}
+        Se:V -> 1:c -> top.el
+        c {{ -> R:r = 2; -> Df:i }}
+        1:mass {{ <- Se:drive; -> top.m; -> I:J = 1; -> Df:w }}
+        }}"""
+    with pytest.raises(CompileError) as caught:
+        _ = compiled(text.format(start="")).residuals
+    [error] = [d for d in caught.value.diagnostics if d.severity == "error"]
+    assert error.code == "initial-value-needed" and "`(el.q0 = 0)`" in error.help
+    assert compiled(text.format(start="el.q0 = 1, ")).residuals
+
+
 def binary_tree(depth: int) -> str:
     """A supply that branches into 2**depth motors over wires, the speed of each measured."""
     lines = ["param R = 2; param L = 1e-3; param k = 0.05; param J = 1e-4; param Rw = 0.1",
