@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from bondgraph.algebra.affine import rest as rest_of_linear
+from bondgraph.algebra.affine import affine
 from bondgraph.ir.equation_system import Equation, EquationSystem
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
-from bondgraph.ir.nodes import has
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.nodes import constant, has
 from bondgraph.ir.residuals import Missing, ReducedSystem, ResidualSet, Step
 from bondgraph.structural.matching import match
 from bondgraph.structural.rank import relations as independent
@@ -52,7 +52,9 @@ def loop_unsolvable(
     laws = [e for e in equations if e.kind in ("law", "sensor")] or equations
     names = tuple(dict.fromkeys(e.name for e in laws))
     rest = (*[s.equation for s in below], *closing)
-    if all(_linear(pool, e) for e in equations):
+    slopes = [_slopes(pool, e) for e in equations]
+    moving = not all(constant(slope) for own in slopes for slope in own or ())
+    if moving and None not in slopes:
         finding = _moving(laws)
         return [Missing(equation, names, rest, finding) for equation in about]
     finding = Diagnostic(
@@ -66,10 +68,13 @@ def loop_unsolvable(
     return [Missing(equation, names, rest, finding) for equation in about]
 
 
-def _linear(pool: Pool, equation: Equation) -> bool:
-    """Whether an equation is linear in its variables, with coefficients that may move, not jump."""
+def _slopes(pool: Pool, equation: Equation) -> list[Expr] | None:
+    """What multiplies the variables of a linear equation; None of another, and where it jumps."""
     expr = equation.zero if equation.rate is None else equation.rate
-    return not has([expr], Op.IF) and rest_of_linear(pool, expr, equation.variables) is not None
+    parts = [affine(pool, expr, v) for v in equation.variables]
+    found = [part[0] for part in parts if part is not None]
+    linear = len(found) == len(parts) and set(symbols(*found)).isdisjoint(equation.variables)
+    return found if linear and not has([expr], Op.IF) else None
 
 
 def _moving(laws: Sequence[Equation]) -> Diagnostic:
@@ -78,8 +83,8 @@ def _moving(laws: Sequence[Equation]) -> Diagnostic:
     others = f" and {len(names) - 3} more" if len(names) > 3 else ""
     return Diagnostic(
         "loop-too-large",
-        f"The linear loop through {', '.join(names[:3])}{others} is too large to be taken apart:"
-        " what multiplies its variables moves, and is differentiated with each that is left out.",
+        f"The linear loop through {', '.join(names[:3])}{others} could not be taken apart: what"
+        " multiplies its variables moves, and is differentiated with each that is left out.",
         _labels(list(dict.fromkeys(e.origin for e in laws))[:3]),
         help="Measure inside it: sensors cut it into parts that are solved alone. Or describe what"
         " is far from every sensor by fewer elements.",

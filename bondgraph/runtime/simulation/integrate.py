@@ -271,7 +271,10 @@ class _Tried:
         if len(self.x) >= _MANY or self.failed:
             return ""
         with np.errstate(all="ignore"):
-            modes, right = np.linalg.eig(self.machine.jacobian(self.t, np.array(self.x), u))
+            slopes = self.machine.jacobian(self.t, np.array(self.x), u)
+            if not np.isfinite(slopes).all():  # where a law ends there are none to one side
+                return ""
+            modes, right = np.linalg.eig(slopes)
             fastest = int(np.argmax(np.abs(modes.imag)))
             hertz = abs(modes[fastest].imag) / (2 * np.pi)
             if not hertz * (self.span[1] - self.t) > _RINGING:

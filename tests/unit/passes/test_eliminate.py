@@ -238,7 +238,7 @@ def test_a_nonlinear_loop_names_its_elements() -> None:
 
 
 def test_a_limited_command_that_is_logged_is_not_turned_round() -> None:
-    """Two laws hold its value; what is limited is known of no value at the limit."""
+    """Two laws hold its value; at the limit it does not tell what was limited."""
     c = compiled(
         """model M { param R = 3; param L = 2; param k = 2; param ci = 5
         input r
