@@ -7,13 +7,16 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import lsim
 
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.log_file import write_log
+from bondgraph.runtime.simulation.run import Robot
 from tests.simulation.machines import Array, example, near, opened, read, run
 
 ROTOR = "Se:T -> 1:w\nw -> I:J = 0.5\nw -> R:f = 0.2\nw -> Df:y\nsensor th : rad = int(w.f)"
@@ -116,6 +119,65 @@ def test_a_stuck_sensor_keeps_its_reading_with_its_noise() -> None:
     gone = np.isnan(found.log.columns["th"])
     assert gone.tolist() == [50 <= k < 60 or 70 <= k < 80 or 90 <= k < 100 for k in range(101)]
 
+
+SERVO = (
+    "input r\nparam Kp = 2\nparam Ki = 5\nlet e = r - y\nSe:T = Kp*e + Ki*int(e)\n"
+    "T -> 1:w\nw -> I:J = 0.5\nw -> R:f = 0.2\nw -> Df:y\nsensor u = Kp*e + Ki*int(e)"
+)
+
+
+@pytest.mark.parametrize("rate", [40, 1000])  # points that are bends, and a long recording
+def test_a_controller_of_the_model_gets_noise_and_bias(rate: int) -> None:
+    """What the log says of the sensor, less what it truly is, is what acts on the loop."""
+    found = run(
+        SERVO,
+        f"duration = 4\nsampling.rate = {rate}\ninputs.r = 3\n"
+        "[sensors.y]\nnoise = 0.3\nbias = 0.1\n[sensors.u]\nnoise = 0.01",
+    )
+    log, w, t = found.log.columns, found.truth.columns["y"], found.log.time
+    added = log["y"] - w
+    assert abs(added.mean() - 0.1) < 5 * 0.3 / math.sqrt(len(t))
+    assert abs(added.std() - 0.3) < 5 * 0.3 / math.sqrt(2 * len(t))
+    # x = (integral of e, w); lsim takes its input in straight lines between the samples
+    loop = [[0, -1], [5 / 0.5, -(2 + 0.2) / 0.5]], [[1], [2 / 0.5]], [[0, 1]], [[0]]
+    _, moved, states = lsim(loop, 3 - added, t)
+    assert near(w, moved, 1e-4)
+    told = 2 * (3 - log["y"]) + 5 * states[:, 0]
+    assert near(found.truth.columns["u"], told, 1e-4)
+    assert 0.005 < (log["u"] - told).std() < 0.02  # whose own noise acts on nothing
+
+
+def test_noise_and_a_fault_reach_a_controller_together() -> None:
+    found = run(
+        SERVO,
+        "duration = 4\nsampling.rate = 500\ninputs.r = 3\nsensors.y.noise = 0.3\n"
+        "[[fault]]\nof = 'y'\nchange = '*= 1.5'\nat = 1\nuntil = 2\nramp = 0.5\n"
+        "[[fault]]\nof = 'y'\nchange = 'stuck'\nat = 3",
+    )
+    e, t = 3 - found.log.columns["y"], found.log.time
+    step = np.diff(t)
+    held = np.concatenate([[0.0], np.cumsum((e[1:] + e[:-1]) / 2 * step)])
+    # a stuck reading jumps, so that its first interval is half of one and half of the other
+    assert abs(found.truth.columns["u"] - 2 * e - 5 * held).max() < 5 * 0.3 * 5 * step[0]
+    stuck = t >= 3
+    assert len(set(found.log.columns["y"][stuck].tolist())) == 1
+    assert e[~stuck].std() > 0.2
+
+
+def test_a_machine_without_an_end_gets_the_noise_of_its_sensors() -> None:
+    c = opened(SERVO)
+    scenario = read(c, "sampling.rate = 1000\ninputs.r = 3\n[sensors.y]\nnoise = 0.3\nbias = 0.1")
+    logs = list(islice(Robot(c.equations, c.integral, scenario).logs(), 150))
+    y, u, t = (
+        np.concatenate(parts)
+        for parts in zip(*((x.columns["y"], x.columns["u"], x.time) for x in logs), strict=True)
+    )
+    assert t[-1] > 2.5  # more than one window
+    e = 3 - y
+    held = np.concatenate([[0.0], np.cumsum((e[1:] + e[:-1]) / 2 * np.diff(t))])
+    # from window to window the noise jumps
+    assert abs(u - 2 * e - 5 * held).max() < 5 * 0.3 * 5 * 0.001
+    assert y.std() > 0.25
 
 def test_a_stuck_input_stays_as_it_was_and_a_stuck_parameter_stops_drifting() -> None:
     found = run(

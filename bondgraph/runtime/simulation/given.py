@@ -21,6 +21,7 @@ from bondgraph.runtime.simulation.scenario import Controller, Course, Scenario
 Inputs = Callable[[float], list[float]]
 
 _EDGE = 2e-12  # of the time: what lies nearer together than half of it is one moment
+_BIAS = "bias of "
 _LOOKS = 2000  # times at which a condition is looked at, at least
 
 
@@ -138,7 +139,45 @@ class Given(Acting):
         for name in self.modes:
             self.courses[name] = self.courses[name]._replace(hold=True)
         self._told = {name: self._function(course) for name, course in self.courses.items()}
-        self.smooth = any(courses.smooth(c) for c in self.courses.values())
+        #: what instruments add to the sensors that laws read
+        self.errors: dict[str, Course] = {}
+        self._erring: dict[str, list[Callable[[float], float]]] = {}
+
+    @property
+    def smooth(self) -> bool:
+        """Whether something told may change at any time within a segment."""
+        return any(courses.smooth(c) for c in (*self.courses.values(), *self.errors.values()))
+
+    def obey(self, errors: Mapping[str, Course]) -> None:
+        """Let laws get sensors with what their instruments add, which is a course of each."""
+        self.errors = dict(errors)
+        self.wrong = {name: Wrong([]) for name in errors} | self.wrong
+        self._erring = {
+            name: [self._function(course, order) for order in (0, 1)]
+            for name, course in self.errors.items()
+        }
+
+    def error(self, name: str, t: float, order: int = 0) -> float:
+        """What the instrument adds to a sensor as laws get it; nothing more once it is stuck."""
+        if name not in self._erring or self.wrong[name].stuck(t):
+            return 0.0
+        return self._erring[name][order](t)
+
+    @property
+    def disturbed(self) -> tuple[str, ...]:
+        """See `Acting`."""
+        return tuple(dict.fromkeys((*super().disturbed, *self.errors)))
+
+    def _signal(self, name: str, order: int) -> Callable[[float], float]:
+        plain, target = super()._signal(name, order), _erring(name)
+        if target not in self.errors or order > 1:
+            return plain
+        return lambda t: plain(t) + self.error(target, t, order)
+
+    def before(self, machine: Machine) -> list[float]:
+        """See `Acting`; an instrument errs before the start as at the start."""
+        told = zip(super().before(machine), machine.signals, strict=True)
+        return [x + (0.0 if s.order else self.error(_erring(s.name), 0.0)) for x, s in told]
 
     def _function(self, course: Course, order: int = 0) -> Callable[[float], float]:
         return courses.function(course, self.graph.pool, self.values, order)
@@ -172,12 +211,13 @@ class Given(Acting):
 
     def followed(self, machine: Machine) -> list[Followed]:
         """See `Acting`."""
+        prompt = {n: c for n, c in self.courses.items() if n not in self._late}
+        right = {n: c for n, c in self.errors.items() if n not in super(Given, self).disturbed}
+        prompt |= {f"{_BIAS}{name}": course for name, course in right.items()}
         return [
-            Followed(k, self.courses[name], order)
+            Followed(k, prompt[name], order)
             for k, (name, order) in enumerate(machine.signals)
-            if name in self.courses
-            and name not in self._late
-            and courses.moves(self.courses[name], order)
+            if name in prompt and courses.moves(prompt[name], order)
         ]
 
     def _moves(self, name: str, order: int, t: float) -> bool:
@@ -186,7 +226,12 @@ class Given(Acting):
         if name in self._late:
             return True
         what, _, target = name.partition(" of ")
-        return what in ("gain", "bias") and target in self.wrong and self.wrong[target].sets_in(t)
+        if what not in ("gain", "bias"):
+            return False
+        if target in self.wrong and self.wrong[target].sets_in(t):
+            return True
+        own = self.errors.get(_erring(name))
+        return own is not None and target in super().disturbed and courses.moves(own, order)
 
     def control(
         self,
@@ -218,6 +263,7 @@ class Given(Acting):
             ]
             for name, course in self.courses.items()
         }
+        told |= {f"{_BIAS}{n}": courses.bends(c, end) for n, c in self.errors.items()}
         for controller in self.scenario.controllers:
             ticks = np.arange(1, math.ceil(end / controller.period)) * controller.period
             told[controller.input] = ticks.tolist()
@@ -254,6 +300,11 @@ def _apart(found: Iterable[float], times: Array) -> list[float]:
 
 def _multiple(t: float, period: float) -> bool:
     return abs(t / period - round(t / period)) < 1e-6
+
+
+def _erring(signal: str) -> str:
+    """The sensor, value or input that a signal of the machine is the bias of; empty for others."""
+    return signal.removeprefix(_BIAS) if signal.startswith(_BIAS) else ""
 
 
 def nothing(_: float) -> float:

@@ -11,11 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from bondgraph.ir.expr import symbols
 from bondgraph.ir.graph import BondGraph
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.faults import Wrong
 from bondgraph.runtime.simulation.parameters import Values
-from bondgraph.runtime.simulation.scenario import Instrument, Scenario
+from bondgraph.runtime.simulation.scenario import Course, Instrument, Scenario
 
 
 class Reader:
@@ -31,18 +32,37 @@ class Reader:
         self._draw = np.random.default_rng(seed)
         self.instrument = instrument
         self.counts = counts
-        self._noise = self._draw.standard_normal(samples) * instrument.noise
+        self._error = self._drawn(samples)  # that is added at each sample
         self._phase = float(self._draw.uniform())
         own = instrument.rate
         self._every = 1 if own is None or own >= rate else round(min(rate / own, samples))
 
     def renew(self) -> None:
         """Noise for as many samples more, which are counted from 0 again."""
-        self._noise = self._draw.standard_normal(len(self._noise)) * self.instrument.noise
+        self._error = self._drawn(len(self._error))
+
+    def _drawn(self, samples: int) -> Array:
+        noise = self._draw.standard_normal(samples) * self.instrument.noise
+        return np.asarray(noise + self.instrument.bias)
+
+    def passed_on(self, times: Array) -> Course:
+        """Noise and bias at the samples, in straight lines between them, for a law that gets them.
+
+        The true value has them from now on, so that they are not added when it is read.
+        """
+        own = slice(None, None, self._every)
+        told = zip(times[own].tolist(), self._error[own].tolist(), strict=False)
+        self._error = np.zeros(len(self._error))
+        return Course(None, tuple(told))
 
     def freeze(self, first: int, last: int) -> None:
         """From sample `first` to before `last` it shows noise no more: the sensor is stuck."""
-        self._noise[first:last] = self._noise[max(first - 1, 0)]
+        self._error[first:last] = self._error[max(first - 1, 0)]
+
+    @property
+    def errs(self) -> bool:
+        """Whether it adds noise or a bias."""
+        return bool(self.instrument.noise or self.instrument.bias)
 
     @property
     def unit(self) -> float:
@@ -55,7 +75,7 @@ class Reader:
 
     def read(self, k: int, value: float) -> float:
         """What is read of a true value at sample k."""
-        value += self.instrument.bias + self._noise[k]
+        value += self._error[k]
         if self.counts is not None:
             return float(math.floor(value * self.counts / (2 * math.pi) + self._phase))
         step = self.instrument.step
@@ -64,7 +84,7 @@ class Reader:
     def all(self, values: Array) -> Array:
         """What is read at all samples; `values` are the true ones."""
         n = len(values)
-        seen = values + self.instrument.bias + self._noise[:n]
+        seen = values + self._error[:n]
         if self.counts is not None:
             seen = np.floor(seen * self.counts / (2 * math.pi) + self._phase)
         elif self.instrument.step:
@@ -86,6 +106,25 @@ def readers(
     return found
 
 
+def obeyed(graph: BondGraph) -> frozenset[str]:
+    """The sensors that a law, an integral or another sensor reads, those that count aside.
+
+    They act on the machine with what their instruments add.
+    """
+    read = [law.zero for node in graph.nodes for law in node.laws]
+    read += [i.integrand for i in graph.integrals] + [s.reads for s in graph.sensors]
+    used = {*symbols(*read)}
+    names = {s.name for symbol, s in graph.readings.items() if symbol in used}
+    names |= {i.of for i in graph.inputs if i.of}
+    return frozenset(names - {s.name for s in graph.sensors if s.counts is not None})
+
+
+def passed_on(graph: BondGraph, readers: Mapping[str, Reader], times: Array) -> dict[str, Course]:
+    """What instruments add to the readings that laws obey (`Reader.passed_on`), by sensor."""
+    heard = obeyed(graph)
+    return {n: r.passed_on(times) for n, r in readers.items() if n in heard and r.errs}
+
+
 class Readings:
     """The instruments of a scenario, window after window of `size` samples (at least `least`).
 
@@ -99,6 +138,7 @@ class Readings:
         step = math.lcm(*(max(1, round(scenario.sampling.rate / r)) for r in rates if r))
         self.size = -(-least // step) * step  # a slow instrument begins with the window
         self._readers = readers(graph, scenario, values, self.size)
+        self._graph = graph
         self._own: dict[str, float] = {}  # what a slow instrument took last
         self._shown: dict[str, float] = {}
         self._fresh = True
@@ -109,6 +149,10 @@ class Readings:
             for reader in self._readers.values():
                 reader.renew()
         self._fresh = False
+
+    def passed_on(self, times: Array) -> dict[str, Course]:
+        """What instruments add in this window to the readings that laws obey, by sensor."""
+        return passed_on(self._graph, self._readers, times)
 
     def unit(self, name: str) -> float:
         """See `Reader.unit`."""

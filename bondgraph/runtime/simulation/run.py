@@ -17,7 +17,7 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.runtime.c_library import warn
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.simulation.given import Given, inside
-from bondgraph.runtime.simulation.instruments import Readings, readers
+from bondgraph.runtime.simulation.instruments import Readings, passed_on, readers
 from bondgraph.runtime.simulation.integrate import Integrator, SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.native_machine import Coding, NativeMachine
@@ -93,6 +93,7 @@ class _Simulation(Stepper):
         self._past: dict[str, list[float]] = {name: [] for name in (*self.late, *received)}
         samples = len(self.times)
         self.readers = readers(self.graph, scenario, self.values, samples)
+        self.given.obey(passed_on(self.graph, self.readers, self.times))
         self.told = {i.name: np.empty(samples) for i in self.graph.inputs if not i.of}
         self.gone = {s.name: np.zeros(samples, dtype=bool) for s in self.sensors}
 
@@ -129,7 +130,8 @@ class _Simulation(Stepper):
             scenario.method,
             scenario.tolerance,
             end,
-            2 / scenario.sampling.rate if given.smooth else math.inf,
+            # noise bends at each sample
+            (1 if given.errors else 2) / scenario.sampling.rate if given.smooth else math.inf,
             lambda t: progress(min(t / end, 1.0)),
         )
         done = 0
@@ -248,6 +250,8 @@ class _Simulation(Stepper):
             if sensor.name in self.late:  # before the start it was as it was then
                 true = np.interp(self.times - self.late[sensor.name], self.times, true)
             read = self.readers[sensor.name].all(true)
+            if sensor.name in self.given.errors and sensor.name in truth:
+                truth[sensor.name] -= [self.given.error(sensor.name, t) for t in self.times]
             known[sensor.name] = np.where(self.gone[sensor.name], math.nan, read)
         kept = np.ones(len(self.times), dtype=bool)
         if scenario.sampling.lost:
@@ -320,6 +324,7 @@ class Robot:
 
     def _window(self, window: int, times: Array) -> Iterator[Log]:
         self.readings.renew()
+        self.given.obey(self.readings.passed_on(times[:-1]))
         start, end = float(times[0]), float(times[-1])
         stops = {t for t in self.given.stops(end) if start < t < end}
         stops |= {float(t) for t in times[:: max(1, round(_FLUSH * self.rate))] if t > start}
