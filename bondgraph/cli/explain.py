@@ -253,8 +253,14 @@ def _residual(compilation: Compilation, relation: Relation) -> list[str]:
             "  < here the computation runs against the strokes of the drawing in derivative",
             "    causality: it needs both variables of a bond from one end (bicausal)",
         ]
-    if residual.differentiated:
+    if residual.differentiated > 0:
         lines += ["", "  The relation is differentiated: an initial value is not declared."]
+    if residual.differentiated < 0:
+        lines += [
+            "",
+            "  What is left over are rates alone: what is stored adds up to what it does with the",
+            "  declared initial values, and the relation says so without a derivative.",
+        ]
     observer = compilation.observers[relation.name]
     if isinstance(observer, str):
         lines += ["", "As an observer", f"  none: {observer}"]

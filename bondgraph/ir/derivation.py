@@ -14,11 +14,12 @@ from bondgraph.text.tuples import NamedTuple
 #: unknowns only; rise: differentiate such a row; untear: solve it for its torn unknown; put: that
 #: into another row; lower: a derivative of a torn unknown out of a row, by another row; close: what
 #: is known into the equation that was left over; free: differentiate a relation so that an
-#: undeclared start drops out of it; cancel: what drops out; scale: what stands before it goes;
+#: undeclared start drops out of it; since: what has not changed since its declared start, of which
+#: the relation is the derivative; cancel: what drops out; scale: what stands before it goes;
 #: shift: to the time of the log.
 Move = Literal[
     "solve", "invert", "differentiate", "integrate", "iterate", "tear", "row", "rise", "untear",
-    "put", "lower", "close", "free", "cancel", "scale", "shift",
+    "put", "lower", "close", "free", "since", "cancel", "scale", "shift",
 ]  # fmt: skip
 
 

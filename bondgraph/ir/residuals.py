@@ -31,9 +31,10 @@ class Residual(NamedTuple):
     `closing` is the equation that was left over and became the relation, `steps` the elimination
     steps that it rests on, in order: the causal path from the known signals to the closing
     equation. `differentiated` counts how often the relation was differentiated because an initial
-    value is not declared. `free_of` names the fault that it was made to be free of. `raw`, `loop`
-    and `each` are as in `Closing`; `orders` has the highest derivative of each known signal that
-    the residual holds (-1: only under an integral).
+    value is not declared; it is -1 where one of rates alone was integrated from declared ones.
+    `free_of` names the fault that it was made to be free of. `raw`, `loop` and `each` are as in
+    `Closing`; `orders` has the highest derivative of each known signal that the residual holds (-1:
+    only under an integral).
     """
 
     name: str

@@ -101,7 +101,7 @@ _LATE = '''def delay(x, seconds):
 
 #: What a script calls its own things, and what it uses of Python: no value may be called so.
 _RESERVED = frozenset(
-    "sp t signal D Int solve put_in known vanishes check order numerator lower delay relation"
+    "sp t signal D Int solve put_in known vanishes check order numerator lower delay relation kept"
     " factor Rational any classmethod isinstance max print sorted str".split()
 )
 
@@ -199,6 +199,9 @@ class _Script:
             case "free":
                 by = f" / ({self._text(step.factor)})" if step.factor else ""
                 return f"{self._row(step)}relation = D(sp.expand(relation{by}))\nrelation"
+            case "since":
+                kept = f"kept = {self._text(step.value)}\nassert vanishes(D(kept) - relation)\n"
+                return f"{self._row(step)}{kept}relation = kept\nrelation"
             case "cancel":
                 return f"{self._row(step)}relation = sp.expand(relation)\nrelation"
             case "scale" | "shift":

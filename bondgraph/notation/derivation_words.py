@@ -67,6 +67,8 @@ def headline(derivation: Derivation, step: DerivationStep, source: Source, shown
         case "free":
             divided = f"divide by {shown(step.factor)} and " if step.factor else ""
             return f"{divided}differentiate: an initial value that nobody declared drops out"
+        case "since":
+            return "it is the derivative of what has a declared start, and has kept that value"
         case "cancel":
             return "multiply out"
         case "scale":

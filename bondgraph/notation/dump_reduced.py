@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, topological
 from bondgraph.ir.residuals import Closing, Missing, ReducedSystem, Step
-from bondgraph.notation.dump_stages import equation_name, step_row, table
+from bondgraph.notation.dump_stages import equation_name, order_line, step_row, table
 from bondgraph.notation.line import show
 from bondgraph.text.source import Source
 
@@ -70,12 +70,10 @@ def _step_rows(
 
 
 def _closing_lines(closing: Closing, source: Source) -> list[str]:
-    times = closing.differentiated
     lines = [f"left over: {equation_name(closing.equation, source)}, {len(closing.steps)} steps"]
     if closing.raw is not closing.expr:
         lines.append(f"  raw  0 = {show(closing.raw)}")
-    if times:
-        lines.append(f"  differentiated {'once' if times == 1 else f'{times} times'}")
+    lines += order_line(closing.differentiated)
     return [*lines, f"  0 = {show(closing.expr)}"]
 
 

@@ -272,11 +272,19 @@ def residual_path(residual: Residual, source: Source) -> str:
     """The elimination path of one residual, from the known signals to the closing equation."""
     lines = [f"{residual.name}: left over is {residual_origin(residual, source)}"]
     lines += table(step_row(step, source) for step in residual.steps)
-    if residual.differentiated:
-        times = "once" if residual.differentiated == 1 else f"{residual.differentiated} times"
-        lines.append(f"  differentiated {times}: an initial value is not declared")
+    lines += order_line(residual.differentiated)
     lines.append(f"  0 = {show(residual.closing.zero)}")
     return "\n".join(lines)
+
+
+def order_line(differentiated: int) -> list[str]:
+    """What became of a relation because of initial values, in a line or none."""
+    if differentiated < 0:
+        return ["  since the start, as declared: what was left over are rates alone"]
+    if not differentiated:
+        return []
+    times = "once" if differentiated == 1 else f"{differentiated} times"
+    return [f"  differentiated {times}: an initial value is not declared"]
 
 
 def step_row(step: Step, source: Source) -> tuple[str, str, str]:

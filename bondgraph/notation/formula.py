@@ -82,19 +82,16 @@ def _name(name: str) -> Formula:
 class Reader:
     """Reads expressions as formulas.
 
-    `named` nodes stand as these names. `starts` are the values from which integrals begin: one
-    that begins at zero does not say so. With `declared` these values stand for their symbols
-    wherever they occur.
+    `named` nodes stand as these names. `starts` are the values of initial values, wherever they
+    occur: an integral that begins at zero does not say so, and a sum has no zero in it.
     """
 
     def __init__(
         self,
         named: Mapping[Expr, str] = MappingProxyType({}),
         starts: Mapping[Symbol, Expr] = MappingProxyType({}),
-        declared: bool = False,
     ) -> None:
         self.starts = starts
-        self._values = starts if declared else {}
         self._done = {node: Formula(Shape.NAME, (), name) for node, name in named.items()}
 
     def of(self, expr: Expr) -> Formula:
@@ -121,8 +118,9 @@ class Reader:
         return inside.of(root.unknown), inside.of(root.zero)
 
     def _parts(self, node: Expr) -> tuple[Expr, ...]:
-        values = self.starts if node.op is Op.INT else self._values if node.op is Op.SYM else None
-        value = values.get(node.symbol) if values else None
+        value = self.starts.get(node.symbol) if node.op in (Op.INT, Op.SYM) else None
+        if value is not None and value.op is Op.NUM and not value.number and node.op is Op.SYM:
+            value = None  # a name says more in a product, and a sum does without it
         return node.args if value is None else (*node.args, value)
 
     def _read(self, node: Expr) -> Formula:
@@ -162,9 +160,16 @@ class Reader:
         coefficients, parts = [], []
         for c, arg in zip(node.coefficients, node.args, strict=True):
             part = self._done[arg]
-            if arg.op is Op.NUM:
-                value = c * arg.number
+            told = self.starts.get(arg.symbol, arg) if arg.op is Op.SYM else arg
+            if told.op is Op.NUM:
+                value = c * told.number
+                if not value:
+                    continue
                 c, part = Fraction(1 if value > 0 else -1), Formula(Shape.NUMBER, (), abs(value))
             coefficients.append(c)
             parts.append(part)
+        if not parts:
+            return Formula(Shape.NUMBER, (), Fraction(0))
+        if coefficients == [1]:
+            return parts[0]
         return Formula(Shape.SUM, tuple(parts), tuple(coefficients))

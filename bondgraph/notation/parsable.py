@@ -105,7 +105,7 @@ def parsable(
     `ssqrt(x)` is sign(x) sqrt(|x|); all other functions have the names they have in SymPy. Numbers
     are exact rationals. The text of n distinct nodes is linear in n.
     """
-    return _Writer(pool, names, functions).write(Reader({}, starts, declared=True).of(expr))
+    return _Writer(pool, names, functions).write(Reader({}, starts).of(expr))
 
 
 class _Writer(Speller):

@@ -150,8 +150,10 @@ def _notes(compilation: Compilation, relation: Relation, program: Program | None
     notes = []
     if residual.free_of is not None:
         notes.append(f"It does not react to {residual.free_of}, which was taken as unknown for it.")
-    if residual.differentiated:
+    if residual.differentiated > 0:
         notes.append("Differentiated, because an initial value is not declared.")
+    if residual.differentiated < 0:
+        notes.append("It rests on declared initial values: what is left over are rates alone.")
     if compilation.detectability.weak(relation.name) is None and relation.faults:
         notes.append(
             "Whether a fault shows as long as it lasts is not known: the machine has no steady"

@@ -14,6 +14,7 @@ from bondgraph.passes.elimination.each_mode import each_mode
 from bondgraph.passes.elimination.measured_parts import with_sensors
 from bondgraph.passes.elimination.regroup import regroup
 from bondgraph.passes.elimination.shortfall import tell
+from bondgraph.passes.elimination.since_start import since_start
 from bondgraph.text.diagnostic import Report
 
 #: What is tried where the first elimination misses a relation for the reason given, in this order.
@@ -42,7 +43,7 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem:
     if _lacking(result):
         result = each_mode(system, _eliminated) or result
     tell(report, result)
-    return regroup(result)
+    return regroup(since_start(result))
 
 
 def _eliminated(system: EquationSystem) -> ReducedSystem:

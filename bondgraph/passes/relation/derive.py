@@ -221,13 +221,17 @@ class _Replay:
         """The relation without undeclared starts and what cancels; its factor."""
         if not relations:
             raise Unshown("the loop leaves no relation")
+        since = self.residual.differentiated < 0
+        wanted = taken(sp.diff(arr, t)) if since else arr
         for number, relation in relations:
             steps = list(self.steps)
             self.last = number
             own = self._free_of_starts(relation)
-            factor = factor_of(own, arr, self.below)
+            factor = factor_of(own, wanted, self.below)
             if factor is not None:
-                self._cancelled(own, arr)
+                self._cancelled(own, wanted)
+                if since:
+                    self._then("since", self.signals.expr(factor * arr))
                 same = self.steps[-1].closed is self._arr(self.residual.expr)
                 if factor != 1 or self.torn or not same:
                     self._scaled(factor)

@@ -1,0 +1,582 @@
+/* two.c: the residuals of Two; generated, see the header. */
+#include "two.h"
+
+#include <stddef.h>
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef two_real real;
+
+#define REAL(x) TWO_CONSTANT(x)
+#if defined TWO_FLOAT && !defined TWO_REAL
+#define MATH(name) name##f
+#else
+#define MATH(name) name
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* The larger of two numbers. */
+static real greatest(real left, real right)
+{
+    return right > left ? right : left;
+}
+
+/* The least bandwidth * sample_time at which a filter still moves. */
+#if defined TWO_FLOAT && !defined TWO_REAL
+#define SLOWEST REAL(0.0001)
+#else
+#define SLOWEST REAL(1.0e-09)
+#endif
+
+uint32_t two_abi(void)
+{
+    return TWO_ABI;
+}
+
+const char *two_digest(void)
+{
+    return TWO_DIGEST;
+}
+
+void two_nominal(two_parameters *parameters)
+{
+    parameters->c1 = REAL(0.01);  /* m/N */
+    parameters->c2 = REAL(0.02);  /* m/N */
+}
+
+/* Whether configure may go on with what it is given. */
+static two_status checked(const two_parameters *p, real sample_time, real bandwidth)
+{
+    const bool finite = finite_number(p->c1 + p->c2);
+
+    if (!finite) {
+        return TWO_BAD_PARAMETER;
+    }
+    if (!(sample_time > REAL(0.0)) || !finite_number(sample_time)) {
+        return TWO_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return TWO_BAD_BANDWIDTH;
+    }
+    return TWO_OK;
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+const two_coefficients two_nominal_coefficients = {
+    REAL(0.20000000000000018),  /* r1_w1_F1 */
+    REAL(0.40000000000000036),  /* r1_w1_F2 */
+    REAL(0.9801980198019802),   /* a */
+    REAL(0.00990099009900991),  /* b */
+    {462u},                     /* samples until each is valid */
+    462u                        /* the longest of these */
+};
+
+/* The coefficients, from the parameters. */
+static void compute_coefficients(two_coefficients *c, const two_parameters *p, real sample_time,
+        real bandwidth)
+{
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* two.bg:10: r1: factor of F1' */
+    c->r1_w1_F1 = p->c1 * w;
+
+    /* r1: factor of F2' */
+    c->r1_w1_F2 = p->c2 * w;
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
+}
+
+static bool coefficients_are_finite(const two_coefficients *c)
+{
+    return finite_number(c->r1_w1_F1 + c->r1_w1_F2 + c->a + c->b);
+}
+
+two_status two_configure(
+    two_coefficients *coefficients,
+    const two_parameters *parameters,
+    two_real sample_time,
+    two_real bandwidth)
+{
+    two_coefficients *c = coefficients;
+    const two_status status = checked(parameters, sample_time, bandwidth);
+    int k;
+
+    for (k = 0; k < TWO_RESIDUALS; ++k) {
+        c->settle[k] = UINT32_MAX;
+    }
+    c->longest = UINT32_MAX;
+    if (status != TWO_OK) {
+        return status;
+    }
+    compute_coefficients(c, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(c)) {
+        return TWO_BAD_COEFFICIENT;
+    }
+    c->settle[TWO_R1] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    c->longest = c->settle[TWO_R1];
+    return TWO_OK;
+}
+
+/* r1 on one sample.
+ * two.bg:10: r1 = c1*D(F1) - c2*D(F2) */
+static void run_r1(
+    const two_coefficients *c, two_memory *x, const two_samples *s, real *r)
+{
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
+
+    if (first) {
+        /* nothing is remembered yet */
+        x->r1_s2 = REAL(0.0);
+        x->r1_s1 = REAL(0.0);
+    }
+
+    /* a stage of the filter; on the first sample it is at rest */
+    const real a = first ? -c->b : c->a;
+    const real b = first ? REAL(1.0) : c->b;
+
+    /* degree 1 */
+    const real d1 = c->r1_w1_F1 * s->F1 - c->r1_w1_F2 * s->F2;
+
+    /* stage 2 */
+    const real u2 = -d1;
+    const real y2 = x->r1_s2 + b * u2;
+    x->r1_s2 = a * y2 + b * u2;
+
+    /* stage 1 */
+    const real u1 = y2 + d1;
+    const real y1 = x->r1_s1 + b * u1;
+    x->r1_s1 = a * y1 + b * u1;
+
+    r[TWO_R1] = y1;
+}
+
+/* Ages and validity one by one: a number that is not finite makes the next sample the first. */
+static void count_samples(
+    const two_coefficients *c,
+    two_memory *x,
+    two_residuals *out)
+{
+    /* the residuals that are computed, and what each one goes with */
+    static const uint8_t number[] = {
+        0
+    };
+    static const uint8_t part[] = {
+        0
+    };
+    bool finite[1];
+    int k;
+
+    finite[0] = true;
+    for (k = 0; k < 1; ++k) {
+        finite[part[k]] = finite[part[k]] && finite_number(out->value[number[k]]);
+    }
+    x->youngest = UINT32_MAX;
+    for (k = 0; k < 1; ++k) {
+        x->age[k] = finite[k] ? x->age[k] + (x->age[k] < UINT32_MAX ? 1u : 0u) : 0u;
+        x->youngest = x->age[k] < x->youngest ? x->age[k] : x->youngest;
+    }
+    for (k = 0; k < 1; ++k) {
+        out->value[number[k]] = finite[part[k]] ? out->value[number[k]] : REAL(0.0);
+        out->valid[number[k]] = x->age[part[k]] > c->settle[number[k]];
+    }
+}
+
+void two_reset(two_memory *memory)
+{
+    int k;
+
+    for (k = 0; k < 1; ++k) {
+        memory->age[k] = 0u;
+    }
+    memory->youngest = 0u;
+}
+
+void two_step(
+    const two_coefficients *coefficients,
+    two_memory *memory,
+    const two_samples *samples,
+    two_residuals *residuals)
+{
+    const two_coefficients *c = coefficients;
+    two_memory *x = memory;
+    const two_samples *s = samples;
+    real *r = residuals->value;
+    int k;
+
+    run_r1(c, x, s, r);
+    /* a sum is finite only if all its terms are */
+    if (x->youngest > c->longest && finite_number(r[TWO_R1])) {
+        for (k = 0; k < TWO_RESIDUALS; ++k) {
+            residuals->valid[k] = true;
+        }
+    } else {
+        count_samples(c, x, residuals);
+    }
+}
+
+const char two_fault_name[TWO_FAULTS][3] = {
+    "c1", "c2", "F1", "F2",
+};
+
+const uint16_t two_fault_class[TWO_FAULTS] = {
+    0u, 0u, 0u, 0u,
+};
+
+const char two_residual_name[TWO_RESIDUALS][3] = {
+    "r1",
+};
+
+/*
+ * Signatures, as sizes of faults in eighths of an octave. A residual in alarm makes a fault so much
+ * larger than what is least here as it is out; 0: it does not see the faults of the class.
+ */
+static const uint8_t least_size[TWO_CLASSES][TWO_RESIDUALS] = {
+    {1u},
+};
+
+/* A residual is sure to show a fault of this size; 255: of no size. */
+static const uint8_t sure_size[TWO_CLASSES][TWO_RESIDUALS] = {
+    {0u},
+};
+
+/* The peak of residual k since it went into alarm, beside what is sure to be one. */
+static void remember_peak(
+    two_diagnosis *d, const two_limit *limit, int k, real out, real bound)
+{
+    const real over = out - limit->level;
+    const real sure = limit->level + bound + bound;
+
+    if (over > d->peak[k] * sure && sure > REAL(0.0)) {
+        d->peak[k] = over / sure;
+    }
+}
+
+/* A peak in eighths of an octave above a sixteenth of what is sure to be an alarm. */
+static int eighths(real peak)
+{
+    real top = REAL(0.0625);
+    int n;
+
+    for (n = 0; n < 255; ++n) {
+        if (peak < top) {
+            return n;
+        }
+        top *= REAL(1.0905077326652577);
+    }
+    return 255;
+}
+
+/* How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out. */
+static int size_of(const two_diagnosis *d, int c)
+{
+    int size = 0;
+    int k;
+
+    for (k = 0; k < TWO_RESIDUALS; ++k) {
+        if (d->state[k] == TWO_ALARM) {
+            const int n = eighths(d->peak[k]);
+
+            if (least_size[c][k] == 0u) {
+                return -1;
+            }
+            if (n > 0 && n + (int)least_size[c][k] > size) {
+                size = n + (int)least_size[c][k];
+            }
+        }
+    }
+    return size;
+}
+
+/* What is left of the faults of class c. */
+static two_candidate left_of(const two_diagnosis *d, int c)
+{
+    const int size = size_of(d, c);
+    int k;
+
+    if (size < 0) {
+        return TWO_RULED_OUT;
+    }
+    if (d->settled < d->window) {
+        return TWO_LIKELY; /* too soon for what is quiet to say anything */
+    }
+    for (k = 0; k < TWO_RESIDUALS; ++k) {
+        const int sure = (int)sure_size[c][k];
+
+        if (d->state[k] == TWO_HEALTHY && sure != 255 && sure <= size) {
+            return TWO_SMALL;
+        }
+    }
+    return TWO_LIKELY;
+}
+
+#define NEVER REAL(1e30) /* a limit that nothing exceeds */
+#define RELEASE REAL(0.5) /* of its level: what is nearer is quiet */
+#define OVERSHOOT REAL(1.166) /* of the mean of sums over their height */
+#define SHARE REAL(0.3333333333333333) /* of the height, that a row adds at most */
+
+/* A sum, kept between zero and twice its height. */
+static real kept(real sum, real height)
+{
+    const real most = height + height;
+
+    return sum < REAL(0.0) ? REAL(0.0) : sum > most ? most : sum;
+}
+
+/* One row more of residual k; whether a sum is too high. off: from the mean, out: beyond bound. */
+static bool add_row(
+    two_diagnosis *d, const two_limit *limit, int k, real off, real out, real bound)
+{
+    const real top = limit->height + OVERSHOOT;
+    const real beyond = out > REAL(0.0) ? out : REAL(0.0);
+    const real loud = beyond * beyond * limit->loud - limit->drift;
+    const real most = SHARE * top;
+
+    d->above[k] = kept(d->above[k] + ((off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->below[k] = kept(d->below[k] + ((-off - bound) * limit->unit - REAL(0.5)), limit->height);
+    d->louder[k] = kept(d->louder[k] + (loud > most ? most : loud), top);
+    return d->above[k] > limit->height || d->below[k] > limit->height || d->louder[k] > top;
+}
+
+static bool sums_are_zero(const two_diagnosis *d, int k)
+{
+    const real sum = d->above[k] + d->below[k] + d->louder[k];
+
+    return !(sum > REAL(0.0));
+}
+
+static void forget_sums(two_diagnosis *d, int k)
+{
+    d->above[k] = REAL(0.0);
+    d->below[k] = REAL(0.0);
+    d->louder[k] = REAL(0.0);
+    d->streak[k] = 0u;
+}
+
+/* How far a residual is beyond its bound; off: from its mean. */
+static real excess(real off, real bound)
+{
+#if defined __GNUC__ && !defined TWO_REAL
+    return MATH(__builtin_fabs)(off) - bound; /* one instruction, no library */
+#else
+    return (off < REAL(0.0) ? -off : off) - bound;
+#endif
+}
+
+static bool is_within(const two_limit *limit, real value, real bound)
+{
+    return excess(value - limit->mean, bound) <= limit->level;
+}
+
+/* Residual k in one sample; whether it goes into alarm. */
+static bool watch(
+    two_diagnosis *d, const two_limit *limit, int k, real value, real bound, bool row)
+{
+    const real off = value - limit->mean;
+    const real out = excess(off, bound);
+    bool high = false;
+
+    if (row) {
+        high = add_row(d, limit, k, off, out, bound);
+    }
+    if (d->state[k] == TWO_ALARM) {
+        d->since[k] += d->since[k] < UINT32_MAX ? 1u : 0u;
+        remember_peak(d, limit, k, out, bound);
+        if (!(out < RELEASE * limit->level) || !sums_are_zero(d, k)) {
+            d->quiet = 0u;
+        }
+        return false;
+    }
+    d->state[k] = TWO_HEALTHY;
+    d->streak[k] = out > limit->level ? d->streak[k] + 1u : 0u;
+    if (d->streak[k] < d->least && !high) {
+        return false;
+    }
+    d->state[k] = TWO_ALARM;
+    d->since[k] = 0u;
+    d->peak[k] = REAL(0.0);
+    remember_peak(d, limit, k, out, bound);
+    return true;
+}
+
+/* Which classes of faults the residuals leave, and the one if it is one. */
+static void judge(two_diagnosis *d)
+{
+    int likely = 0;
+    int c;
+
+    d->fault_class = TWO_UNKNOWN;
+    for (c = 0; c < TWO_CLASSES; ++c) {
+        const two_candidate left = left_of(d, c);
+
+        d->candidate[c] = (uint8_t)left;
+        if (left == TWO_LIKELY) {
+            d->fault_class = (int16_t)c;
+            ++likely;
+        }
+    }
+    if (likely != 1 || d->settled < 2u * d->row) {
+        d->fault_class = TWO_UNKNOWN;
+    }
+}
+
+two_limit two_limit_of(two_real level)
+{
+    two_limit limit;
+
+    limit.mean = REAL(0.0);
+    limit.level = level;
+    limit.unit = REAL(0.0);
+    limit.loud = REAL(0.0);
+    limit.drift = REAL(0.5);
+    limit.height = NEVER;
+    limit.bound = REAL(0.0);
+    return limit;
+}
+
+void two_clear(two_diagnosis *diagnosis)
+{
+    int k;
+
+    for (k = 0; k < TWO_RESIDUALS; ++k) {
+        if (diagnosis->state[k] == TWO_ALARM) {
+            diagnosis->state[k] = TWO_HEALTHY;
+        }
+        diagnosis->since[k] = 0u;
+        diagnosis->peak[k] = REAL(0.0);
+        forget_sums(diagnosis, k);
+    }
+    for (k = 0; k < TWO_CLASSES; ++k) {
+        diagnosis->candidate[k] = TWO_RULED_OUT;
+    }
+    diagnosis->fault_class = TWO_UNKNOWN;
+    diagnosis->quiet = 0u;
+    diagnosis->settled = 0u;
+    diagnosis->calm = false;
+}
+
+void two_diagnosis_reset(two_diagnosis *diagnosis)
+{
+    int k;
+
+    diagnosis->row = TWO_ROW;
+    diagnosis->least = 15u;
+    diagnosis->hold = 10u * TWO_ROW;
+    diagnosis->window = 300u;
+    diagnosis->latch = false;
+    diagnosis->tick = 0u;
+    for (k = 0; k < TWO_RESIDUALS; ++k) {
+        diagnosis->state[k] = TWO_BLIND;
+    }
+    two_clear(diagnosis);
+}
+
+/* Whether each residual has a value within its level: nearly all samples are so. */
+static bool all_within(
+    const two_limit *limits, const real *bounds, const two_residuals *residuals)
+{
+    const real *value = residuals->value;
+    int k;
+
+    if (bounds != NULL) {
+        for (k = 0; k < TWO_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], bounds[k])) {
+                return false;
+            }
+        }
+    } else {
+        for (k = 0; k < TWO_RESIDUALS; ++k) {
+            if (!residuals->valid[k] || !is_within(&limits[k], value[k], limits[k].bound)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Residual k without a value. */
+static void blind(two_diagnosis *d, int k)
+{
+    forget_sums(d, k);
+    if (d->state[k] == TWO_ALARM) {
+        d->quiet = 0u; /* nobody knows that it is over */
+    } else {
+        d->state[k] = TWO_BLIND;
+    }
+}
+
+bool two_diagnose(
+    two_diagnosis *diagnosis,
+    const two_limit *limits,
+    const two_real *bounds,
+    const two_residuals *residuals)
+{
+    two_diagnosis *d = diagnosis;
+    bool alarm = false;
+    bool fresh = false;
+    bool row;
+    int k;
+
+    d->tick += 1u;
+    row = d->tick >= d->row;
+    if (d->calm && !row && all_within(limits, bounds, residuals)) {
+        return false;
+    }
+    d->calm = true;
+    if (row) {
+        d->tick = 0u;
+    }
+    d->quiet += d->quiet < UINT32_MAX ? 1u : 0u;
+    d->settled += d->settled < UINT32_MAX ? 1u : 0u;
+    for (k = 0; k < TWO_RESIDUALS; ++k) {
+        if (residuals->valid[k]) {
+            const real bound = bounds ? bounds[k] : limits[k].bound;
+
+            fresh = watch(d, &limits[k], k, residuals->value[k], bound, row) || fresh;
+        } else {
+            blind(d, k);
+        }
+        d->calm = d->calm && d->state[k] == TWO_HEALTHY && d->streak[k] == 0u;
+        alarm = alarm || d->state[k] == TWO_ALARM;
+    }
+    if (fresh) {
+        d->quiet = 0u;
+        d->settled = 0u;
+    }
+    if (alarm && !d->latch && d->quiet >= d->hold) {
+        two_clear(d);
+        return false;
+    }
+    if (fresh || (alarm && row)) {
+        judge(d);
+    }
+    return alarm;
+}
