@@ -32,6 +32,8 @@ from bondgraph.text.tuples import NamedTuple
 _TESTS = 4  # of each residual: samples, sums of rows and of averages, how loud rows are
 _TAIL = 3.29  # standard deviations that one normal sample in a thousand exceeds
 _ABOVE = 1.2  # times the largest excess of a healthy machine that a limit stays above
+_ACCURACY = 1e-7  # of the terms of a residual: that of a simulation, and of floats of 32 bits
+_NOTHING = 1e-150  # of a residual that nothing moves
 _CHUNK = 5000  # samples at a time
 _APART = 16  # rows without a value between two logs, more than noise is taken to remember
 _SURE = 0.9  # share of the windows in which the smallest change shows
@@ -89,7 +91,7 @@ def tune(
         raise ValueError(
             f"no log is longer than the warm-up of {engine.warm_up:g} s: nothing can be learned"
         )
-    found = _limits(engine, learned, false_alarms, centred(model, engine.residuals), work.spread)
+    found = _limits(engine, learned, false_alarms, centred(model, engine.residuals), work)
     bounds = dict(zip(engine.residuals, np.max([n.bound for n in learned], axis=0).tolist(),
                       strict=True))  # fmt: skip
     tuning = Tuning(
@@ -150,6 +152,14 @@ class _Work:
         self.all = sized(engine, found, model.deliveries, self.nominal, longest)
         self.tolerated, self.spread = tolerated(self.all, model)
         self.every = rows_apart(engine)
+        self.least = _ACCURACY * self._terms(longest)
+
+    def _terms(self, samples: Array) -> Array:
+        """How much signals move each residual at most; counts are exact, however far they are."""
+        counted = {k.path for k in self.engine.signals if k.counts is not None}
+        gains = [h for h in self.all if h.kind == "gain" and h.fault not in counted]
+        moved = Bank(copied(self.engine), gains, self.nominal).run(samples)
+        return np.asarray(np.abs(moved).max(axis=(0, 1), initial=0.0))
 
     def noise(self, samples: Array) -> _Noise | None:
         """What is left of the residuals once parameters are taken as they fit best.
@@ -157,13 +167,13 @@ class _Work:
         None for a log that is not longer than the warm-up.
         """
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
+        start += -start % self.every  # the rows are those of a monitor, which begin with the log
         if len(samples) <= start + self.every:
             return None
         history = History(self.spread)
         first = next(self._chunks(samples[start:], samples[:start]))[0].value
         rough = np.std(np.diff(first[:: self.every], axis=0), axis=0)
-        size = np.max(np.abs(first), axis=0, initial=0.0)
-        weight = 1.0 / np.maximum(rough, 1e-12 * size + 1e-300) ** 2
+        weight = 1.0 / np.maximum(rough, self.least + _NOTHING) ** 2
         every = []
         for batch, slopes, doubt in self._chunks(samples[start:], samples[:start]):
             for k, row in self._rows(batch, slopes, doubt):
@@ -171,10 +181,10 @@ class _Work:
                 every.append(row)
         found = history.fit()
         # a residual with fewer stages than others is watched while these warm up
-        skip = start % self.every
-        early = list(self._chunks(samples[skip:start], samples[:skip]))
+        early = list(self._chunks(samples[:start], samples[:0]))
         excess = [_beyond(chunk[0]) for chunk in early]
-        rest, spaced, rows = [], [], 0
+        rest, spaced = [], []
+        rows = sum(int(batch.valid.all(axis=1).sum()) for batch, _, _ in early)
         bound = np.zeros(len(self.engine.residuals))
         for batch, slopes, _ in self._chunks(samples[start:], samples[:start]):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)
@@ -293,7 +303,7 @@ def _averages(rows: Sequence[Row], found: Array) -> Array:
 
 def _limits(
     engine: Engine, logs: Sequence[_Noise], false_alarms: float, stands: Sequence[bool],
-    spread: Array,
+    work: _Work,
 ) -> dict[str, Limit]:
     rows = sum(n.rows for n in logs)
     tail = np.max([n.tail for n in logs], axis=0) / _TAIL
@@ -302,7 +312,7 @@ def _limits(
     apart = np.full((_APART, len(tail)), np.nan)
     rest = np.concatenate([np.vstack([n.rest, apart]) for n in logs])
     averages = np.concatenate([np.vstack([n.averages, apart]) for n in logs])
-    used = np.isfinite(rest).any(axis=0) & (tail > 0)
+    used = np.isfinite(rest).any(axis=0) & (np.maximum(tail, work.least) > 0)
     alarms = false_alarms / 3600.0 / (_TESTS * max(1, int(used.sum())))
     often = 1.0 / (rows_apart(engine) * engine.sample_time)
     found = {}
@@ -310,7 +320,8 @@ def _limits(
         own = noise(rest[:, k], centred=stands[k])
         rate = max(float(crossings[k]), engine.bandwidth / (2 * math.pi))
         asked = kappa(rate, alarms)
-        sigma = max(own.foreseen(asked), float(tail[k]))
+        least = float(work.least[k])
+        sigma = max(own.foreseen(asked), float(tail[k]), least)
         top, bottom = excess[:, k].tolist()
         level = max(asked, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
         # what a single sample reached says nothing of the noise of averages
@@ -318,10 +329,11 @@ def _limits(
         limit = Limit(sigma, rate, level, height(often, alarms), own.mean, own.memory)
         if math.isfinite(mean.unit):
             off = mean.mean - own.mean if stands[k] else 0.0
-            unit = mean.unit * sigma / own.foreseen(asked)
+            unit = mean.unit * sigma / max(own.foreseen(asked), least)
+            unit = max(unit, least * (1.0 + float(mean.weights.sum())))
             limit = Limit(*limit[:6], unit, off, *mean.weights.tolist())
         found[engine.residuals[k]] = limit
-    return _higher(found, engine.residuals, logs, spread)
+    return _higher(found, engine.residuals, logs, work.spread)
 
 
 def _higher(
@@ -329,7 +341,7 @@ def _higher(
 ) -> dict[str, Limit]:
     """The same with heights above what the sums of healthy machines, watched so, come to."""
     own = np.array(limits(found, residuals), dtype=float)
-    cusum, sure = Cusum(len(own)), np.ones(len(own), dtype=bool)
+    cusum, sure = Cusum(len(own), healthy=True), np.ones(len(own), dtype=bool)
     for log in logs:
         history = History(spread)
         cusum.restart()
@@ -344,6 +356,7 @@ def _higher(
             if len(waiting) > HEALTHY:
                 old = waiting.popleft()
                 history.add(old.value, weight(old, own[:, 0]), old.slopes)
+        cusum.end()
     heights = dict(zip(residuals, cusum.heights(own[:, 3]).max(axis=0).tolist(), strict=True))
     return {name: limit._replace(height=heights[name]) for name, limit in found.items()}
 

@@ -35,16 +35,22 @@ class Cusum:
     stretch s is seen in the peaks between two zeros (Pickands, 1975: an excess over a level is
     exponential). Heights are s times what they are for normal rows then, and above every peak.
 
-    `limits` have the columns of `Limit`, (residuals, 12).
+    `limits` have the columns of `Limit`, (residuals, 12). A sum climbs no higher than twice its
+    height, so that an alarm ends soon; of a machine that is known to be `healthy` as high as it is.
     """
 
-    def __init__(self, residuals: int, learns: bool = True) -> None:
-        self._learns = learns
+    def __init__(self, residuals: int, learns: bool = True, healthy: bool = False) -> None:
+        self._learns, self._most = learns, math.inf if healthy else 2.0
         self._count = np.zeros(residuals)  # of peaks
         self._excess = np.zeros(residuals)  # of all of them together
         self._highest = np.zeros((SUMS, residuals))
         self._since = np.zeros((SUMS, residuals))  # rows since each sum was zero
         self.restart()
+
+    def end(self) -> None:
+        """A healthy log ends: where its sums stand is the end of a peak as well."""
+        self.sums = np.zeros((SUMS, len(self._count)))
+        self._learn()
 
     def restart(self) -> None:
         """The sums begin anew; what is known of peaks is still known."""
@@ -85,7 +91,7 @@ class Cusum:
             loud = (size**2 * _SQUARE - _LOUD) / squares
             loud = np.minimum(loud, SHARE * top[2])
             more = np.vstack([off, loud[None], self._lasting(row, limits)])
-            after = np.clip(self.sums + more, 0.0, 2.0 * top)
+            after = np.clip(self.sums + more, 0.0, self._most * top)
         self.sums = np.where(known & np.isfinite(more), after, 0.0)
         if self._learns:
             self._learn()

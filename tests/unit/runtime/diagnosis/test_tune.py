@@ -202,6 +202,32 @@ model M {
     assert limit.unit / limit.sigma == pytest.approx(usual.unit / usual.sigma, rel=0.1)
 
 
+def test_noise_is_not_taken_for_less_than_the_digits_that_a_log_has() -> None:
+    """A log without noise: U adds 6 V to the residual and R i takes them away."""
+    engine = model().engine(native=False)
+    exact = np.tile([_R * _I, _I], (_COUNT, 1))
+    limit = tune(engine, model().diagnosis_model, [exact], "digest", 2.0).tuning.limits["r1"]
+    assert limit.sigma == pytest.approx(1e-7 * _R * _I)
+
+
+@pytest.mark.parametrize("begin", [5000, 9000])  # the sums are at zero again in the end, or not
+def test_sums_of_a_healthy_machine_count_however_high_they_are(begin: int) -> None:
+    """It is off for a second, by less than single samples tell, and no monitor may say so."""
+    draw = np.random.default_rng(8)
+    log = np.column_stack([np.full(_COUNT, _R * _I), _I + draw.normal(0.0, _NOISE, _COUNT)])
+    log[begin : begin + 1000, 1] += 0.6 * _NOISE
+    engine = model().engine(native=False)
+    tuning = tune(engine, model().diagnosis_model, [log], model().program.digest, 2.0).tuning
+    usual = tuned().tuning.limits["r1"].height
+    assert tuning.limits["r1"].height > 2.0 * 1.2 * usual
+    watching = model().tuned(tuning)
+    own = watching.engine(native=False)
+    watch = watching.diagnosis(own, tuning)
+    said = watch.update(np.arange(_COUNT) * _STEP, own.run(log), log)
+    assert [v for v in said if v.event == "warm-up"]
+    assert not [v for v in said if v.event == "fault"]
+
+
 def test_a_log_that_ends_with_the_first_row_behind_the_warm_up_teaches_nothing() -> None:
     engine = model().engine(native=False)
     short = math.ceil(engine.warm_up / engine.sample_time) + 1 + rows_apart(engine)
