@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from decimal import Decimal
 from itertools import pairwise
 from typing import Final
 
@@ -165,6 +167,17 @@ def decimal(cursor: Cursor, at: int) -> Remedy | None:
         return None
     point = f"{cursor.words[at - 1]}.{cursor.words[at + 1]}"
     return replacing(cursor.word_span(at), ".", f"A number has a point: `{point}`.")
+
+
+def percent(cursor: Cursor, at: int) -> Remedy | None:
+    """That a share is a plain number: `80 %`."""
+    number, start = cursor.words[at - 1], cursor.starts[at - 1]
+    if cursor.words[at] != "%" or not re.fullmatch(r"\d{1,9}(\.\d{1,9})?", number):
+        return None
+    share = f"{(Decimal(number) / 100).normalize():f}"
+    place = Span(cursor.source, start, cursor.end_of(at).start)
+    help = f"A share is a plain number, `{share}`; `%` is for tolerances, as in `2 Ohm +- 5%`."
+    return replacing(place, share, help) if cursor.fresh[at + 1] else Remedy(help)
 
 
 def bracketed_unit(cursor: Cursor, at: int) -> Remedy | None:

@@ -69,13 +69,14 @@ class Nodes(Declarations):
             choice,
             decimal,
             factor,
+            percent,
             several,
         )
 
         help: str | Remedy = "End the statement with a line end or `;`."
         meant = (
             several(self, at) or choice(self, at) or factor(self, at) or decimal(self, at)
-            or arrow(self, at) or bracketed_unit(self, at)
+            or arrow(self, at) or bracketed_unit(self, at) or percent(self, at)
         )  # fmt: skip
         if meant is not None:
             help = meant

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 
 from bondgraph.ir.graph import End
-from bondgraph.passes.elaboration.problems import Skip, fail
+from bondgraph.passes.elaboration.problems import Skip, fail, listed
 from bondgraph.passes.elaboration.scope import (
     NodeEntry,
     PortEntry,
@@ -48,6 +49,7 @@ class Flattener:
         self.open_ports = open_ports
         self.bonds: list[FlatBond] = []
         self.added: list[NodeEntry] = []
+        self.free: dict[tuple[Span, str, str], list[NodeEntry]] = {}
 
     # ------------------------------------------------------------------ ports
 
@@ -69,9 +71,9 @@ class Flattener:
             for end in node.bonds[:1]:
                 end.port = 0
             if len(node.bonds) > 1:
+                help = "Put a 0- or 1-junction there and let each element have its own bond."
                 self.too_many(node, node.bonds[:2], "has one port, but two bonds",
-                              _between(node) or "Put a 0- or 1-junction there and let each element "
-                              "have its own bond.")  # fmt: skip
+                              _in_row(node) or _between(node) or help)  # fmt: skip
         if node.scope.unlinked:
             return
         met = {e.port for e in node.bonds}
@@ -79,7 +81,7 @@ class Flattener:
             if at not in met:
                 if named:
                     self.unconnected(node, f"has no bond at port `{name}`",
-                                     f"Draw a bond to `{node.name}.{name}`.")  # fmt: skip
+                                     f"Draw a bond to `{node.local}.{name}`.")  # fmt: skip
                 elif len(names) == 2 and node.bonds:
                     self.unconnected(node, "has two ports, but one bond",
                                      "Connect its other side too.")  # fmt: skip
@@ -115,16 +117,26 @@ class Flattener:
         """Report a port that is used twice."""
         node.scope.unlinked = True
         self.report.error(
-            "too-many-bonds", f"`{node.type}:{node.name}` {what}.",
+            "too-many-bonds", f"`{node.type}:{node.local}` {what}.",
             *[Label(e.bond.origin, "a bond here") for e in reversed(ends)],
             Label(node.origin, "declared here"), help=help,
         )  # fmt: skip
 
     def unconnected(self, node: NodeEntry, what: str, help: str) -> None:
-        """Report a port that has no bond."""
-        self.report.error(
-            "unconnected", f"`{node.type}:{node.name}` {what}.", node.origin, help=help
-        )
+        """Note a port that has no bond, which `tell_unconnected` reports."""
+        self.free.setdefault((node.origin, what, help), []).append(node)
+
+    def tell_unconnected(self, scope: Scope) -> None:
+        """Report the ports of a scope without a bond, elements of one row in one error."""
+        row = Counter(n.name for n in scope.items if isinstance(n, NodeEntry))
+        for (origin, what, help), nodes in self.free.items():
+            first = nodes[0]
+            names = [f"{first.type}:{n.local}" for n in nodes]
+            if len(nodes) == row[first.name]:
+                names = [f"{first.type}:{first.name}"]
+            told = what if len(names) == 1 else f"have{what.removeprefix('has')}"
+            self.report.error("unconnected", f"{listed(names)} {told}.", origin, help=help)
+        self.free.clear()
 
     def check_port(self, port: PortEntry) -> None:
         """A port of a model has one bond inside and one outside."""
@@ -293,6 +305,18 @@ def check_scope(scope: Scope, flattener: Flattener) -> None:
     for item in scope.items:
         if isinstance(item, NodeEntry):
             flattener.number_ports(item)
+    flattener.tell_unconnected(scope)
+
+
+def _in_row(node: NodeEntry) -> str:
+    """How a row of one-ports is drawn whose bond would pass through one to the next."""
+    one, other = (end.bond.origin for end in node.bonds[:2])
+    if node.place is None or one != other:
+        return ""
+    return (
+        f"A bond passes through a row, from one to the next. Declare it by itself, `{node.type}:"
+        f"{node.name}[...]`, and draw a bond to each, `... -> {node.local}`."
+    )
 
 
 def _between(node: NodeEntry) -> str:

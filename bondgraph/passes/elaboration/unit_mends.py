@@ -1,7 +1,7 @@
 """What would mend units that disagree: changes of the text, each tried before it is proposed.
 
-A stiffness where a compliance belongs, and two quantities that were exchanged, show as units that
-disagree somewhere else. Where they come from is found by trying.
+A stiffness where a compliance belongs, two quantities that were exchanged, and `W/m^2.K` for
+`W/m^2/K`, show as units that disagree somewhere else. Where they come from is found by trying.
 """
 
 from __future__ import annotations
@@ -97,6 +97,7 @@ def _candidates(
     params: list[tuple[Param, Number]] = []
     for model in file.models:
         own = [(s, n) for s, n in _quantities(model) if n.origin in places]
+        yield from _below([n for _, n in own])
         yield from _inverted(model, {s.name.name for s, _ in own})
         yield from (m for at, m in _inverted_numbers(model) if at & places)
         params += own
@@ -113,6 +114,22 @@ def _candidates(
             for one, first in named:
                 if {_measures(first), _measures(second)} in sides:
                     yield _exchanged(one, first, other, second)
+
+
+def _below(numbers: list[Number]) -> Iterator[Mend]:
+    """All that follows a `/` below the line, in units that go on with a `.` there."""
+    for number in numbers:
+        unit = number.unit or ""
+        above, _, rest = unit.partition("/")
+        if "." not in rest:
+            continue
+        new = f"{above}/{rest.replace('.', '/')}"
+        written = number.origin.text.replace(unit, new)
+        words = (
+            f"A unit is read from left to right: `{unit}` multiplies by all that a `.` stands "
+            f"before. What is below the line has a `/` each: `{new}`."
+        )
+        yield words, Edit(f"write `{new}`", ((number.origin, written),))
 
 
 def _compliances(file: File) -> Iterator[Mend]:

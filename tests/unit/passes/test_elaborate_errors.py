@@ -170,6 +170,19 @@ def test_submodels(text: str, codes: list[str]) -> None:
     assert errors(text) == codes
 
 
+@pytest.mark.parametrize(
+    ("bonds", "message"),
+    [
+        ("", "`1:w` has no bond."),
+        ("Se:U -> w[1..3]; w[1] -> w[2]", "`1:w[4]` has no bond."),
+        ("Se:U -> w[2]; w[2] -> R:r = 1", "`1:w[1]`, `1:w[3]` and `1:w[4]` have no bond."),
+    ],
+)
+def test_which_of_a_row_has_no_bond_is_said_in_one_error(bonds: str, message: str) -> None:
+    found = [d.message for d in run(f"model M {{ 1:w[4]; {bonds} }}")[1]]
+    assert message in found and len([m for m in found if "no bond" in m]) == 1
+
+
 def test_an_error_inside_a_thousand_instances_is_one() -> None:
     text = (
         "model Cell { port a : in any; port b : out any; 1:j { <- a; -> R:r = k; -> b } }\n"
