@@ -88,7 +88,10 @@ def steady(machine: Machine, u: Sequence[float], x: Array) -> Array:
         names = [n for n, own in zip(machine.states, inner.tolist(), strict=True) if own]
         moving = [f"`{n}`" for n, bad in zip(names, left.tolist(), strict=True) if bad]
         told = ", ".join(moving[:4])
-        raise SimulationError(f"no steady state was found: {told} goes on changing")
+        raise SimulationError(
+            f"no steady state was found: {told} goes on changing; the search begins with the"
+            " initial values, and with zero where there are none: give some near to it, [initial]"
+        )
     return whole(found.x)
 
 
