@@ -82,7 +82,9 @@ class Diagnosis:
                    if k.path in model.faults and k.kind != "mode" and k.counts is None]  # fmt: skip
         names, at = zip(*checked, strict=True) if checked else ((), ())
         inputs = {k.path for k in engine.signals if k.kind == "input"}
-        self._checks = SignalChecks(names, at, engine.sample_time, inputs)
+        encoders = {k.path: at for at, k in enumerate(engine.signals)
+                    if k.path in model.faults and k.counts is not None}  # fmt: skip
+        self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders)
         self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()
 
@@ -196,7 +198,8 @@ class Diagnosis:
         """What signals show by themselves in a row, told as a fault of theirs."""
         before = set(self._checks.active)
         healthy = not (self._detection.alarmed or before)
-        for one in self._checks.row(row.time, row.samples, healthy):
+        suspects = self._seen_by_all() if self._detection.alarmed else []
+        for one in self._checks.row(row.time, row.samples, healthy, suspects):
             first = not self._detection.alarmed and not before
             since = one.since if first or self._judge.latched is None else self._judge.latched.since
             candidate = Candidate(one.signal, None, "", 1.0)
@@ -351,10 +354,14 @@ class Diagnosis:
 
         Those that all residuals see which have fired: they may be what is wrong.
         """
+        return [s for s in self._seen_by_all() if self._checks.lately(s)]
+
+    def _seen_by_all(self) -> list[str]:
+        """The faults that all residuals see which have fired."""
         residuals = self._engine.residuals
         fired = [n for n, own in zip(residuals, self._detection.fired, strict=True) if own]
-        known = [s for s in self._model.faults if self._checks.lately(s)]
-        return [s for s in known if all(s in self._model.sees.get(r, ()) for r in fired)]
+        sees = [self._model.sees.get(r, ()) for r in fired]
+        return [f for f in self._model.faults if all(f in own for own in sees)]
 
     def _explain(self, row: Row, out: list[Verdict]) -> None:
         """What there is to say of the fault, if that is news."""

@@ -7,11 +7,13 @@ So these are told of the signal, by what it was like while all was well, without
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Collection, Container, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.standing_encoders import StandingEncoders
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.text.tuples import NamedTuple
@@ -39,7 +41,8 @@ class Unusual(NamedTuple):
     """Something that a signal shows: which, what (`spike`, `burst` or `stuck`), and since when (s).
 
     `now` is how far out it is and `before` the most that it was while all was well: of a spike or
-    a burst in shares of its range, of a signal that stands still in samples.
+    a burst in shares of its range, of a signal that stands still in samples. Of an encoder that
+    does it is known which `other` goes on.
     """
 
     signal: str
@@ -47,6 +50,7 @@ class Unusual(NamedTuple):
     since: float
     now: float
     before: float
+    other: str = ""
 
     @property
     def text(self) -> str:
@@ -55,6 +59,8 @@ class Unusual(NamedTuple):
         >>> print(Unusual("y", "spike", 3.0, 0.25, 0.004).text)
         a spike of y by 25 % of its range, 0.4 % at most while the machine was well
         """
+        if self.other:
+            return f"{self.signal} stands still while {self.other} goes on"
         if self.kind == "stuck":
             text = f"{self.signal} stands still for {self.now:.0f} samples, {self.before:.0f}"
         else:
@@ -75,13 +81,15 @@ class SignalChecks:
     does not keep others from being looked at.
 
     `inputs` drive the machine: they may jump and be rough as never before, and so may sensors
-    then. What an input shows so is not told by itself; whether it is wrong residuals say.
+    then. What an input shows so is not told by itself; whether it is wrong residuals say. Of
+    `encoders`, by their columns, is told which stands still while others go on.
     """
 
     def __init__(
         self, names: Sequence[str], at: Sequence[int], sample_time: float,
-        inputs: Container[str] = (),
+        inputs: Container[str] = (), encoders: Mapping[str, int] = MappingProxyType({}),
     ) -> None:  # fmt: skip
+        self._encoders = StandingEncoders(encoders)
         self._names, self._at, self._step = tuple(names), list(at), sample_time
         self._inputs = inputs
         count = len(self._names)
@@ -105,18 +113,34 @@ class SignalChecks:
         """The samples begin anew."""
         self._last = np.empty((0, len(self._names)))
         self._run = np.zeros(len(self._names))
+        self._encoders.restart()
 
-    def row(self, time: float, samples: Array, healthy: bool) -> list[Unusual]:
-        """What begins to be unusual in a row, (n, all signals), that ends at a time (s)."""
+    def row(
+        self, time: float, samples: Array, healthy: bool, suspects: Collection[str] = ()
+    ) -> list[Unusual]:
+        """What begins to be unusual in a row, (n, all signals), that ends at a time (s).
+
+        An encoder is told of if it is one of the `suspects`, as machines stand still as well.
+        """
+        found, driven = self._alone(time, samples, healthy)
+        for name, one in self._encoders.row(samples, healthy, suspects).items():
+            since = time - (one.samples - 1) * self._step
+            found[name] = Unusual(name, "stuck", since, float(one.samples), 0.0, one.other)
+        return self._begun(found, driven)
+
+    def _alone(
+        self, time: float, samples: Array, healthy: bool
+    ) -> tuple[dict[str, Unusual], Container[str]]:
+        """What signals show each by itself, and inputs that move as never before."""
         own = np.where(np.isfinite(samples), samples, math.nan)[:, self._at]
         with_last = np.concatenate([self._last, own])
         runs, ended, changes = self._runs(own)
         self._last = with_last[-4 * _SIDE :]
         if not self._names or len(with_last) < 4 * _SIDE + 1:
-            return []
+            return {}, ()
         if not len(self._weights):
             self._first(own, healthy)
-            return []
+            return {}, ()
         far, rough, moved, where = self._looked_at(with_last)
         found = {}
         span = np.fmax(self._range[1], own.max(axis=0)) - np.fmin(self._range[0], own.min(axis=0))
@@ -134,7 +158,7 @@ class SignalChecks:
             found = {n: one for n, one in found.items() if one.kind == "stuck"}
         if healthy and not found:
             self._learn(own, far, rough, moved, ended, changes)
-        return self._begun(found, driven)
+        return found, driven
 
     def _begun(self, found: Mapping[str, Unusual], driven: Container[str]) -> list[Unusual]:
         """What is new; what has been away for some rows is over."""
@@ -143,7 +167,7 @@ class SignalChecks:
             gone = self._away.get(one.signal, _PAUSE + 1)
             self._needed[one.signal] = min(2 * gone, _PAUSE) if gone <= _PAUSE else _QUIET
             self.active[one.signal] = one
-        for name in self._names:
+        for name in (*self._names, *self._encoders.names):
             shown = name in found or name in driven
             self._away[name] = 0 if shown else self._away.get(name, _PAUSE) + 1
             if name in self.active and self._away[name] >= self._needed.get(name, _QUIET):
@@ -151,8 +175,9 @@ class SignalChecks:
         return fresh
 
     def lately(self, name: str) -> bool:
-        """Whether a signal is unusual or was so a few rows ago."""
-        return name in self.active or self._away.get(name, _PAUSE) < _AFTER
+        """Whether a signal is unusual or was so a few rows ago, an encoder since it is suspect."""
+        fresh = self._away.get(name, _PAUSE) < _AFTER
+        return name in self.active or fresh or name in self._encoders.stood
 
     def _unusual(
         self, far: Array, rough: Array, moved: Array, runs: Array, span: Array
@@ -286,7 +311,7 @@ class SignalChecks:
         """What signals were like and what is unusual now, as plain JSON."""
         learned = [numbers(table) for table in self._learned()] if len(self._weights) else []
         active = [[*one, self._needed.get(name, _QUIET)] for name, one in self.active.items()]
-        return {"learned": learned, "active": active}
+        return {"learned": learned, "active": active, "encoders": self._encoders.state()}
 
     def resume(self, state: Mapping[str, Any]) -> None:
         """Go on from a state; raises KeyError, TypeError or ValueError for one of another kind."""
@@ -295,9 +320,11 @@ class SignalChecks:
             for table, known in zip(self._learned(), state["learned"], strict=True):
                 table[:] = array(known, table.shape)
             self._range[1][self._samples == 0] = -math.inf  # of which nothing is known
-        for signal, kind, since, now, before, needed in state["active"]:
-            one = Unusual(str(signal), str(kind), float(since), float(now), float(before))
-            if not all(map(math.isfinite, one[2:])):
+        self._encoders.resume(state["encoders"])
+        for signal, kind, since, now, before, other, needed in state["active"]:
+            told = float(since), float(now), float(before)
+            one = Unusual(str(signal), str(kind), *told, str(other))
+            if not all(map(math.isfinite, told)):
                 raise ValueError("a time or a size is no number")
             self.active[one.signal], self._needed[one.signal] = one, int(needed)
             self._away[one.signal] = 0
