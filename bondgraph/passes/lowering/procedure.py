@@ -33,7 +33,6 @@ from bondgraph.ir.program import (
 from bondgraph.notation.line import show
 from bondgraph.passes.lowering.program_names import Names, brief, spoken
 from bondgraph.text.source import Span
-from bondgraph.text.tuples import NamedTuple
 
 _DEEPEST = 6  # brackets inside brackets, before a part gets a name
 _BRANCHES = 50  # branches inside of one; beyond, both sides are computed before: text has to end
@@ -43,13 +42,8 @@ ZERO = Const(0.0)
 
 _T = TypeVar("_T")
 _Under = tuple[tuple[Expr, bool], ...]
-
-
-class _Piece(NamedTuple):
-    """A node as terms: (number, constant or None, factors with exponents); one term if no sum."""
-
-    terms: tuple[tuple[Fraction, Expr | None, tuple[tuple[Expr, int], ...]], ...]
-    total: bool
+#: A sum or product as terms: (number, constant or None, factors with exponents).
+_Terms = list[tuple[Fraction, Expr | None, tuple[tuple[Expr, int], ...]]]
 
 
 class Procedure:
@@ -114,14 +108,14 @@ class Procedure:
 
     def _write(self, roots: list[Expr]) -> None:
         """Make the values of the roots, after the statements that they need in any case."""
-        uses, pieces, _ = self._uses(roots)
+        uses, written, _ = self._uses(roots)
         needed = self._needed(roots)
         for node in sorted(uses, key=lambda n: n.id):
             if node in self._made or node not in needed:
                 continue
             value = self._leaf(node)
             if value is None:
-                value = self._value(node, pieces.get(node))
+                value = self._value(node, written.get(node))
                 depth = 1 + max((self._depth.get(a, 0) for a in node.args), default=0)
                 if uses[node] > 1 or depth > _DEEPEST:
                     if not isinstance(value, Ref | Const):
@@ -189,10 +183,10 @@ class Procedure:
 
     def _uses(
         self, roots: list[Expr]
-    ) -> tuple[dict[Expr, int], dict[Expr, _Piece], dict[Expr, list[Expr]]]:
+    ) -> tuple[dict[Expr, int], dict[Expr, _Terms], dict[Expr, list[Expr]]]:
         """How often each node is used, sums and products as they are written, all operands."""
         uses: dict[Expr, int] = {}
-        pieces: dict[Expr, _Piece] = {}
+        written: dict[Expr, _Terms] = {}
         operands: dict[Expr, list[Expr]] = {}
         here = self._under
         stack = [(root, here) for root in roots]
@@ -202,10 +196,10 @@ class Procedure:
             if uses[node] > 1 or node in self._made or self._leaf(node) is not None:
                 continue
             if node.op in (Op.ADD, Op.MUL):
-                piece = pieces[node] = self._piece(node)
+                written[node] = self._terms(node)
                 own = [
                     (a, self._under)
-                    for _, _, fs in piece.terms for a, e in fs for _ in range(min(abs(e), 2))
+                    for _, _, fs in written[node] for a, e in fs for _ in range(min(abs(e), 2))
                 ]  # fmt: skip
             elif node.op in RATIONAL or node.order:
                 raise ValueError(f"no value for {show(node)}")
@@ -214,7 +208,7 @@ class Procedure:
             operands[node] = [a for a, _ in own]
             stack += own
         self._under = here
-        return uses, pieces, operands
+        return uses, written, operands
 
     def _defer(self) -> None:
         """Leave to each node only what it needs whatever conditions say."""
@@ -242,11 +236,11 @@ class Procedure:
                 stack += self._needs.get(node, ())
         return found
 
-    def _piece(self, node: Expr) -> _Piece:
+    def _terms(self, node: Expr) -> _Terms:
         if node.op is Op.MUL:
             fixed, factors = self._split(node)
-            return _Piece(((Fraction(1), fixed, factors),), False)
-        terms = []
+            return [(Fraction(1), fixed, factors)]
+        terms: _Terms = []
         still: list[tuple[Fraction, Expr]] = []
         for c, arg in node.terms:
             if self.hoist is not None and self.constant(arg):
@@ -260,7 +254,7 @@ class Procedure:
                 terms.append((c, fixed, factors))
         if still:
             terms.append((Fraction(1), self.pool.add(*still), ()))
-        return _Piece(tuple(terms), True)
+        return terms
 
     def _split(self, node: Expr) -> tuple[Expr | None, tuple[tuple[Expr, int], ...]]:
         pairs = list(node.factors)
@@ -272,9 +266,9 @@ class Procedure:
 
     # ------------------------------------------------------------ values
 
-    def _value(self, node: Expr, piece: _Piece | None) -> Expression:
-        if piece is not None:
-            return self._sum(piece)
+    def _value(self, node: Expr, written: _Terms | None) -> Expression:
+        if written is not None:
+            return self._sum(written)
         if node.op is Op.FN:
             return Function(node.name, tuple(self._made[a] for a in node.args))
         if node.op is Op.ROOT:
@@ -324,9 +318,9 @@ class Procedure:
                 found = [Logic("not", (Compare("==", value, ZERO),))]
         return found[0] if rest and len(found) == 1 else Logic(node.name, tuple(found))
 
-    def _sum(self, piece: _Piece) -> Expression:
-        terms = [self._term(*t) for t in piece.terms]
-        if len(terms) == 1 and (terms[0][0] or not piece.total):
+    def _sum(self, written: _Terms) -> Expression:
+        terms = [self._term(*t) for t in written]
+        if len(terms) == 1 and terms[0][0]:
             return terms[0][1]
         terms.sort(key=lambda t: not t[0])  # a person writes the positive terms first
         return Sum(tuple(terms))

@@ -391,6 +391,21 @@ def test_modes_choose() -> None:
     assert program.residuals[0].approximate == ""
 
 
+def test_a_product_keeps_the_sign_of_a_sum_of_negative_parameters() -> None:
+    """-(a + b) x dy/dt with x = 3 and y = 2 t is -(2 + 3) * 3 * 2 in exact and in step."""
+    bench = Bench()
+    p = bench.pool
+    a, b = bench.param("a", "2"), bench.param("b", "3")
+    x, y = bench.sensor("x"), bench.sensor("y")
+    program = bench.program(p.mul(p.add((-1, a), (-1, b)), x, p.der(y)))
+    assert program.residuals[0].approximate
+    run = Sampled(program, sample_time=1e-3)
+    assert run.exact({"x": {0: 3.0}, "y": {1: 2.0}})["r1"] == -30.0
+    for k in range(2000):
+        last = run.step({"x": 3.0, "y": 2.0 * k * 1e-3}).residuals["r1"]
+    assert last == pytest.approx(-30.0)
+
+
 def test_tables_and_their_slopes() -> None:
     bench = Bench()
     p = bench.pool
