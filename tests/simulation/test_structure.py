@@ -168,6 +168,16 @@ def test_of_several_solutions_the_one_near_the_last_goes_on() -> None:
     assert e[0] == 0 and (np.diff(e) > 0).all()
 
 
+def test_what_has_no_mass_sticks_until_the_spring_pulls_more_than_friction() -> None:
+    """f/2 + q = t - 2 from 2 s on, with q' = f; until then the law jumps where f is zero."""
+    found = run(
+        "Se:F -> 1:v\nv -> R:slide { e = 2*sign(f) + f/2 }\nv -> C:spring = 1\nv -> Df:y",
+        'duration = 4\nsampling.rate = 50\ninputs.F = "t"',
+    ).truth
+    wanted = [1 - math.exp(-2 * max(t - 2, 0)) for t in found.time]
+    assert near(found.columns["y"], np.array(wanted))
+
+
 def test_slider_crank_through_its_dead_centres() -> None:
     """Lagrange's equation in the angle of the crank, for some turns."""
     J, m, r, length, f, c = 2e-3, 0.4, 0.04, 0.15, 1e-3, 5.0

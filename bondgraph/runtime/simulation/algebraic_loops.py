@@ -20,6 +20,8 @@ _STEPS = 60  # of Newton's method
 SINGULAR = 1e13
 _EXACT = 1e-12  # relative accuracy of a loop
 _GOOD = 1e-9  # of the terms of an equation: what may be left where no step brings it nearer
+_TINY = 1e-300  # is zero: where a law jumps at zero, halving comes as near as this
+_HALVINGS = 5000  # at most, 1000 of which lead from one to there
 _DOUBLINGS = 120  # of the range in which a single unknown is looked for
 
 
@@ -218,7 +220,9 @@ def _searched(look: Look, near: list[float]) -> list[float] | None:
             value = zero(x)
             if value * signs[side] < 0:
                 a, b = sorted((ends[side], x))
-                return [float(brentq(zero, a, b, xtol=1e-300, rtol=4 * np.finfo(float).eps))]
+                eps = float(np.finfo(float).eps)
+                x = float(brentq(zero, a, b, xtol=_TINY, rtol=4 * eps, maxiter=_HALVINGS))
+                return [x if abs(x) > _TINY else 0.0]
             if math.isfinite(value):
                 ends[side], signs[side] = x, value
         width *= 1.5
