@@ -342,6 +342,17 @@ def _rough(differences: Sequence[Array], order: int) -> float:
     return middle / 0.6745 / math.sqrt(math.comb(2 * order, order))
 
 
+def _inverse(curved: Array, spread: Array) -> Array:
+    """The inverse of a curvature (p, p) and what is known before, which is `spread` (p,).
+
+    In units of the spread that is one, and so no sum is singular, however well the logs tell.
+    """
+    wide = np.diag(spread)
+    values, vectors = np.linalg.eigh(wide @ curved @ wide)
+    vectors = wide @ vectors
+    return np.asarray((vectors / (1.0 + np.maximum(values, 0.0))) @ vectors.T)
+
+
 class _Slopes(NamedTuple):
     """At some parameters: normalised residuals and added noise, (rows, residuals), with their
     slopes (p, rows, residuals), and the slopes of the logarithm of the variance (p, residuals)."""
@@ -554,9 +565,8 @@ class _Problem:
                 whole = np.column_stack([basis, np.full(len(basis), len(basis) ** -0.5)])
                 by[:, ~mask, r] = 0.0
                 by[:, mask, r] = (by[:, mask, r] @ whole) @ whole.T
-        curved = np.einsum("atr,btr->ab", by, by) + np.diag(self._spread**-2.0)
-        curved += self._pins.T @ self._pins
-        away = np.linalg.solve(curved, np.einsum("atr,tr->a", by, value))
+        curved = np.einsum("atr,btr->ab", by, by) + self._pins.T @ self._pins
+        away = _inverse(curved, self._spread) @ np.einsum("atr,tr->a", by, value)
         return np.asarray(away[: len(self.names)])
 
     def covariance(self, at: Array) -> tuple[Array, Mask]:
@@ -580,9 +590,7 @@ class _Problem:
         prior = np.diag(self._spread**-2.0)
         free = ~bound
         curved, scatter, prior = (m[np.ix_(free, free)] for m in (curved, scatter, prior))
-        values, vectors = np.linalg.eigh(curved)
-        whole = (vectors * np.maximum(values, 0.0)) @ vectors.T + prior
-        inverse = np.linalg.inv(whole)
+        inverse = _inverse(curved, self._spread[free])
         found = np.zeros((len(at), len(at)))
         scatter *= few_rows(len(own)) ** 2 * len(own) / max(len(own) - len(at), 1)
         found[np.ix_(free, free)] = inverse @ (scatter + prior) @ inverse
@@ -602,10 +610,10 @@ class _Problem:
         moved = self._normal([at] * (2 * len(wanted)), np.vstack([steps, -steps]))[0]
         apart = (moved[: len(wanted)] - moved[len(wanted) :]) / (2 * _STEP)
         by = s.by.reshape(len(at), -1)
-        curved = by @ by.T + np.diag(self._spread**-2.0) + self._pins.T @ self._pins
+        inverse = _inverse(by @ by.T + self._pins.T @ self._pins, self._spread)
         found = []
         for k, slope in zip(wanted, apart, strict=True):
-            follow = np.linalg.solve(curved, by @ slope.ravel())
+            follow = inverse @ (by @ slope.ravel())
             alone = slope - np.tensordot(follow, s.by, 1)
             energy = float(np.sum(alone**2))
             if energy <= _BLIND * float(np.sum(slope**2)):

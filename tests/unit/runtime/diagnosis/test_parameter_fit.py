@@ -124,6 +124,27 @@ def test_logs_without_any_noise_give_the_truth() -> None:
     assert math.isclose(only(fitted(ONE, U=DRIVE, y=DRIVE / 3.0)).value, 3.0, rel_tol=1e-9)
 
 
+def test_logs_without_any_noise_tell_what_they_cannot_tell() -> None:
+    """The currents of a node are in a fixed ratio: two equations for three resistors."""
+    text = """bg 1
+model M {
+  param R1 = 1; param R2 = 0.6; param R3 = 0.8
+  1:a { <- Se:U; -> R:R1; -> 0:n; -> Df:ya }
+  1:b { -> R:R2; <- n; -> Df:yb }
+  1:c { -> R:R3; <- n; -> Df:yc }
+}"""
+    below = 1 / (1 / 0.6 + 1 / 0.8)
+    node = DRIVE * below / (1 + below)
+    found = fitted(text, U=DRIVE, ya=DRIVE - node, yb=node / 0.6, yc=node / 0.8)
+    assert [p.interval for p in found.parameters] == [None] * 3
+    (left_open,) = found.combinations
+    # U = R1*ya + R2*yb and R2*yb = R3*yc: what R2 and R3 gain by a tenth R1 loses by that of below
+    assert left_open.text() == (
+        f"R1, R2 and R3 are not told apart: R1 {-10 * below:+.3g} % with R2 +10 % and R3 +10 %"
+        " changes nothing"
+    )
+
+
 def test_counts_of_an_encoder_are_told_whole_and_are_no_bias() -> None:
     text = """bg 1
     model M { param b = 2e-3 N.m.s/rad; input T : N.m; Se:drive = T -> 1:w; w -> I:J = 1e-3 kg.m^2
