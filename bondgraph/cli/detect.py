@@ -6,7 +6,15 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from bondgraph.cli import console
-from bondgraph.cli.options import check_units, isolating, opened, realised, sampling, signals
+from bondgraph.cli.options import (
+    check_read,
+    check_units,
+    isolating,
+    opened,
+    realised,
+    sampling,
+    signals,
+)
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
 from bondgraph.text.diagnostic import Trouble
@@ -17,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bondgraph.compile_options import Form
+    from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.separation import Separation
@@ -36,14 +45,12 @@ def arguments(parser: ArgumentParser) -> None:
     realised(parser, None)
 
 
-def situation_of(args: Namespace, program: Program) -> Situation:
-    """What the arguments say; raises Unknown for a name that no known signal has."""
+def situation_of(args: Namespace, graph: BondGraph, program: Program) -> Situation:
+    """What the arguments say; raises Unknown or Trouble for what is no signal of the residuals."""
     from bondgraph.runtime.smallest import Situation
 
-    paths = [k.path for k in program.knowns]
-    for name, _ in (*args.at, *args.swing, *args.noise):
-        if name and name not in paths:
-            raise console.Unknown(name, "no known signal of the residuals", paths)
+    told = [name for name, _ in (*args.at, *args.swing, *args.noise) if name]
+    check_read(graph, told, [k.path for k in program.knowns])
     every = dict(args.noise).get("")
     deviations = {}
     if every is not None:
@@ -73,7 +80,7 @@ def run(args: Namespace) -> int:
     check_units(compilation.graph, (*args.at, *args.swing, *args.noise))
     if not compilation.residuals:
         return _nothing(args, compilation)
-    situation = situation_of(args, compilation.program)
+    situation = situation_of(args, compilation.graph, compilation.program)
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     forms = {_form(args.form): compilation}
     if args.form is None and not all(isinstance(o, str) for o in compilation.observers.values()):

@@ -10,6 +10,7 @@ from bondgraph.cli import console
 from bondgraph.cli.log_options import logged, read_logs, times_of
 from bondgraph.cli.options import (
     bandwidth,
+    check_read,
     check_units,
     isolating,
     noise,
@@ -114,9 +115,8 @@ def _noise(args: Namespace, compilation: Compilation) -> dict[str, float]:
     sensors = [k.path for k in compilation.program.knowns if k.kind == "sensor"]
     found: dict[str, float] = {}
     check_units(compilation.graph, args.noise)
+    check_read(compilation.graph, [name for name, _ in args.noise if name], signals)
     for name, deviation in args.noise:
-        if name and name not in signals:
-            raise console.Unknown(name, "no signal that the residuals read", signals)
         found |= dict.fromkeys([name] if name else sensors, deviation)
     return found
 

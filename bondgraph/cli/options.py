@@ -15,7 +15,7 @@ from bondgraph.text.limits import RATE, TUNING_BYTES
 from bondgraph.text.regular_file import check_regular
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from typing import Unpack
 
     from bondgraph.compile_options import Form, OptionValues
@@ -155,6 +155,16 @@ def check_units(graph: BondGraph, given: Iterable[tuple[str, Amount]]) -> None:
             fitting.append(times(dimension, per_second.dimension))
         if value.unit.dimension not in fitting:
             raise Trouble(f"`{name}` is in {unit or 'no unit'}, not in {value.unit.text}")
+
+
+def check_read(graph: BondGraph, given: Iterable[str], read: Sequence[str]) -> None:
+    """Raise `Unknown` for a name that no signal has, `Trouble` for one that no residual reads."""
+    there = [s.name for s in graph.sensors] + [i.name for i in graph.inputs if not i.mode]
+    for name in given:
+        if name not in read and name in there:
+            raise Trouble(f"no residual reads `{name}`")
+        if name not in read:
+            raise console.Unknown(name, "no signal that the residuals read", read)
 
 
 def noise(text: str) -> tuple[str, Amount]:

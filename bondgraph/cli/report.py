@@ -57,7 +57,7 @@ def run(args: Namespace) -> int:
     runs: list[Run] = []
 
     def assume(program: Program) -> Assumed:
-        given = situation_of(args, program)
+        given = situation_of(args, compilation.graph, program)
         if args.scenario and not (args.at or args.swing):
             runs.extend(_simulated(compilation, args.scenario))
             return observed(args, given, compilation, program, runs)

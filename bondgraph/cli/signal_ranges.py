@@ -7,8 +7,7 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from bondgraph.cli import console
-from bondgraph.cli.options import Amount, amount, check_units
+from bondgraph.cli.options import Amount, amount, check_read, check_units
 from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
@@ -72,9 +71,8 @@ def with_ranges(compilation: Compilation, args: Namespace) -> Compilation:
     program = compilation.program
     counted = {k.path for k in program.knowns if k.counts is not None}
     known = [k.path for k in program.knowns] + [s.name for s in program.states]
+    check_read(compilation.graph, [name for name, _, _ in args.bounds], known)
     for name, low, high in args.bounds:
-        if name not in known:
-            raise console.Unknown(name, "no signal of the residuals", known)
         check_units(compilation.graph, [(name, low), (name, high)])
         if name in counted and high.unit is not None:
             raise Trouble(f"`{name}` is an encoder: its range is in counts from sample to sample")

@@ -135,6 +135,29 @@ def test_wrong_words_are_wrong_usage(words: list[str], capsys: pytest.CaptureFix
     assert "Traceback" not in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["detect", "--at", "V=1"],
+        ["detect", "--noise", "V=1"],
+        ["report", "-o", "r.html", "--swing", "V=1"],
+        ["compile", "-o", "c", "--real", "fixed", "--range", "V=0..1"],
+    ],
+)
+def test_a_signal_of_another_part_is_not_said_to_be_unknown(
+    words: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """Nothing is measured of the second circuit: no residual has V, though the model does."""
+    monkeypatch.chdir(tmp_path)
+    text = "Se:U -> 1:a\na -> R:R = 2\na -> Df:i\nSe:V -> 1:b\nb -> R:r = 3\nb -> I:L = 1"
+    (tmp_path / "two.bg").write_text(f"bg 1\nmodel M {{\n{text}\n}}\n", encoding="utf-8")
+    assert main([words[0], "two.bg", *words[1:]]) == 1
+    assert "error: no residual reads `V`\n" in capsys.readouterr().err
+
+
 def test_a_parameter_without_a_number_is_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -74,9 +74,8 @@ def tab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tab]:
 def robot(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The report of the robot with a run that nobody simulated."""
     args = argparse.Namespace(at=[], swing=[], noise=[], frequency=1.0, kappa=5.0, bits=12)
-    content = collect(
-        compile(ROOT / "models/khepera.bg"), lambda p: assumed(args, situation_of(args, p), p)
-    )
+    model = compile(ROOT / "models/khepera.bg")
+    content = collect(model, lambda p: assumed(args, situation_of(args, model.graph, p), p))
     path = tmp_path_factory.mktemp("report") / "robot.html"
     text = page(content._replace(episodes=(episode("A run"),)))
     assert len(text) < 1_500_000
