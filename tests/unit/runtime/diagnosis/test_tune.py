@@ -18,8 +18,9 @@ from scipy import stats
 from bondgraph.compile_options import Options
 from bondgraph.ir.residual_limit import ShownSize
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.diagnosis.calibration import Tuned, _by_fault, _Seen, _shown, tune
+from bondgraph.runtime.diagnosis.calibration import Tuned, _by_fault, _Seen, _shown, _Work, tune
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
+from bondgraph.runtime.diagnosis.rows import to_row_ends
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
 from bondgraph.text.source import Source
 
@@ -226,6 +227,25 @@ def test_sums_of_a_healthy_machine_count_however_high_they_are(begin: int) -> No
     said = watch.update(np.arange(_COUNT) * _STEP, own.run(log), log)
     assert [v for v in said if v.event == "warm-up"]
     assert not [v for v in said if v.event == "fault"]
+def test_rows_are_those_of_a_watch_of_the_same_log() -> None:
+    """What falls off within a row is another sum of rows that end elsewhere."""
+    engine = model().engine(native=False).configured(bandwidth=100.0)
+    every = rows_apart(engine)
+    start = math.ceil(engine.warm_up / engine.sample_time) + 1
+    assert start % every  # not by chance
+    log = np.tile([_R * _I, _I], (_COUNT, 1))
+    log[:, 1] += np.random.default_rng(5).normal(0.0, _NOISE, _COUNT)
+    found = _Work(engine, model().diagnosis_model, [log]).noise(log)
+    assert found is not None and found.rows == pytest.approx(_COUNT - start, abs=1)
+    time = np.arange(_COUNT) * _STEP
+    rows = [own for own in to_row_ends(time, _STEP, every) if own.stop - own.start == every]
+    value, valid, *_ = engine.configured().run(log)
+    assert len(found.every) == len(rows)
+    for row, own in zip(found.every, rows, strict=True):
+        assert row.value == pytest.approx(value[own.stop - 1]) and row.average is not None
+        assert row.average.valid.tolist() == valid[own].all(axis=0).tolist()
+        if row.average.valid.all():
+            assert row.average.value == pytest.approx(value[own].mean(axis=0))
 
 
 def test_a_log_that_ends_with_the_first_row_behind_the_warm_up_teaches_nothing() -> None:
