@@ -84,7 +84,7 @@ class Span(NamedTuple):
 
 
 class Left(NamedTuple):
-    """What is left of one residual.
+    """What is left of one residual, in so many `rows` as it is valid in.
 
     `before` and `after` are the root mean square of the filtered residual, at the nominal and at
     the fitted parameters; `noise` what the sensors make of it. `memory` is the correlation of one
@@ -94,6 +94,7 @@ class Left(NamedTuple):
     """
 
     residual: str
+    rows: int
     before: float
     after: float
     noise: float
@@ -413,6 +414,8 @@ class _Problem:
         late, off = np.split(still, [len(self._runs.late)], axis=1)
         clean, added = self._runs.rows([*values, small], late, off)
         rough = np.sqrt(np.nanmean(added[0] ** 2, axis=0))
+        # the least variance that is reckoned with: sensors that never move tell no noise
+        self._least = (1e-12 * rms(clean[0]) + 1e-150) ** 2
         for row, k in enumerate(zeros, 1):
             effect = float(np.nanmax(rms(clean[row] - clean[0]) / np.maximum(rough, 1e-300)))
             self.scale[k] = 1.0 / effect if effect > 0 else 1.0
@@ -458,7 +461,7 @@ class _Problem:
         value, extra = (np.where(np.isfinite(x), x, 0.0) for x in white)
         noise = (extra**2).sum(axis=-2) / count
         whole = noise + self._extra
-        root = np.sqrt(np.maximum(whole, 1e-300))[:, None, :]
+        root = np.sqrt(np.maximum(whole, self._least))[:, None, :]
         return value / root / self._weight, extra / root, whole, noise
 
     def _slopes(self, at: Array) -> _Slopes:
@@ -466,7 +469,7 @@ class _Problem:
         around = [at + s * _STEP * np.eye(size)[k] for k in range(size) for s in (1, -1)]
         value, added, whole, _ = self._normal([at, *around])
         apart = 2 * _STEP
-        logs = np.log(np.maximum(whole, 1e-300))
+        logs = np.log(np.maximum(whole, self._least))
         return _Slopes(
             value[0],
             added[0],
@@ -642,8 +645,8 @@ class _Problem:
             spans = self._spans(own)
             found.append(
                 Left(
-                    name, float(before[k]), float(after[k]), float(noise[k]), memory, share[k],
-                    spans,
+                    name, int(np.isfinite(clean[1, :, k]).sum()), float(before[k]),
+                    float(after[k]), float(noise[k]), memory, share[k], spans,
                 )
             )
         return tuple(found)

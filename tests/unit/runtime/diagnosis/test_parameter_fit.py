@@ -145,6 +145,18 @@ model M {
     )
 
 
+def test_sensors_that_never_move_tell_nothing() -> None:
+    """They have no noise either, beside which what is left would be of any size."""
+    text = ONE.replace("Se:U -> 1:i", "Se:U -> 0:n; n -> De:u; n -> 1:i")
+    found = fitted(text, U=DRIVE, u=DRIVE, y=np.zeros(N))
+    assert only(found).interval is None
+    moved, still = found.left
+    lagged = math.hypot(5 / math.hypot(1, 7 / 20), 3 / math.hypot(1, 23 / 20))  # of DRIVE
+    assert moved.after == pytest.approx(lagged / math.sqrt(2), rel=0.01)
+    assert moved.noise == 0.0
+    assert still.after == still.before == 0.0 and still.rows == moved.rows > 100
+
+
 def test_counts_of_an_encoder_are_told_whole_and_are_no_bias() -> None:
     text = """bg 1
     model M { param b = 2e-3 N.m.s/rad; input T : N.m; Se:drive = T -> 1:w; w -> I:J = 1e-3 kg.m^2
