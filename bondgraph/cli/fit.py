@@ -65,7 +65,7 @@ def run(args: Namespace) -> int:
     from bondgraph.runtime.diagnosis.tuning import bandwidth_for
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
-    from bondgraph.runtime.monitoring.watch_settings import something_to_watch
+    from bondgraph.runtime.monitoring.watch_settings import engine_of, something_to_watch
 
     if args.plot and find_spec("matplotlib") is None:
         raise Trouble("--plot needs matplotlib: pip install 'bondgraph-arr[robot]'")
@@ -74,7 +74,7 @@ def run(args: Namespace) -> int:
     bandwidth = args.bandwidth or bandwidth_for(rate, sum(log.rows for _, log in logs))
     compilation = realising(args, rate=rate, bandwidth=bandwidth)
     something_to_watch(compilation)
-    engine = compilation.engine()
+    engine = engine_of(compilation)
     mapping = read_map(args.map, engine.signals) if args.map else None
     free = [name.strip() for names in args.free for name in names.split(",") if name.strip()]
     graph = compilation.graph

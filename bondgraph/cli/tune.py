@@ -124,7 +124,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, 
     """The model, an engine of it, what it reads from each log, on its grid, and by what time."""
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
-    from bondgraph.runtime.monitoring.watch_settings import something_to_watch
+    from bondgraph.runtime.monitoring.watch_settings import engine_of, something_to_watch
     from bondgraph.runtime.monitoring.whole_logs import stretches
 
     read = []
@@ -146,7 +146,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, 
         rate = args.rate or rate_of(read[0][1].time) or Options().rate
         compilation = realising(args, rate=rate)
     something_to_watch(compilation)
-    engine = compilation.engine()
+    engine = engine_of(compilation)
     mapping = read_map(args.map, engine.signals) if args.map else None
     times = times_of(read)
     found = stretches(engine, read, mapping, args.operating, args.rate is not None)

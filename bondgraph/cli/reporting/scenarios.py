@@ -19,6 +19,7 @@ from bondgraph.backends.report.episode import (
     Trace,
 )
 from bondgraph.runtime.monitoring.verdict import Verdict, described
+from bondgraph.runtime.monitoring.watch_settings import engine_of
 from bondgraph.runtime.monitoring.whole_logs import on_grid
 from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
 from bondgraph.runtime.simulation.integrate import SimulationError
@@ -93,10 +94,7 @@ def watched(compilation: Compilation, run: Run) -> Watched | None:
     """The run through the monitor's clock, engine and decision; None without any residual."""
     if not compilation.residuals:
         return None
-    try:
-        engine = compilation.engine()
-    except ValueError as error:
-        raise Trouble(str(error)) from error
+    engine = engine_of(compilation)
     decision = compilation.diagnosis(engine)
     parts, verdicts = [], []
     for piece in on_grid(engine, run.log):

@@ -212,9 +212,10 @@ def observed(
 
     As if there were none where their samples are too few or too far apart.
     """
+    from bondgraph.runtime.monitoring.watch_settings import engine_of
     from bondgraph.runtime.monitoring.whole_logs import on_grid
 
-    engine = compilation.engine()
+    engine = engine_of(compilation)
     samples, stretches = [], []
     for run in runs:
         end = min((f.at for f in run.scenario.faults), default=math.inf)

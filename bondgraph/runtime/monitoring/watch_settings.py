@@ -130,6 +130,14 @@ def something_to_watch(compilation: Compiled) -> None:
         )
 
 
+def engine_of(compilation: Compiled, tell: Callable[[str], None] | None = None) -> Engine:
+    """What runs the residuals; raises Trouble where parameters have no value or a wrong one."""
+    try:
+        return compilation.engine(tell=tell)
+    except ValueError as error:
+        raise Trouble(str(error)) from error
+
+
 def watching(
     compilation: Compiled,
     tuning: Tuning | None,
@@ -140,10 +148,7 @@ def watching(
 
     Raises Trouble where there is nothing to watch, or where the tuning is of something else.
     """
-    try:
-        engine = compilation.engine(tell=tell)
-    except ValueError as error:
-        raise Trouble(str(error)) from error
+    engine = engine_of(compilation, tell)
     something_to_watch(compilation)
     if tuning is not None:
         engine = engine.configured(bandwidth=tuning.bandwidth)

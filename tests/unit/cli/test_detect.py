@@ -165,6 +165,17 @@ def test_a_parameter_without_a_number_is_named(
     path.write_text("bg 1\nmodel M { param R : Ohm; Se:U -> 1:j -> R:R; j -> Df:i }\n", "utf-8")
     assert main(["detect", str(path)]) != 0
     assert "R has no value" in capsys.readouterr().err
+    (tmp_path / "s.toml").write_text("duration = 1\nparameters.R = 2\ninputs.U = 3\n", "utf-8")
+    log = tmp_path / "s.csv"
+    assert main(["simulate", str(path), str(tmp_path / "s.toml"), "-o", str(log)]) == 0
+    for words in (
+        ["fit", str(path), str(log), "-o", str(tmp_path / "p.toml")],
+        ["tune", str(path), str(log), "-o", str(tmp_path / "t.json")],
+        ["monitor", str(path), str(log)],
+        ["report", str(path), "--scenario", str(tmp_path / "s.toml"), "-o", str(tmp_path / "r")],
+    ):
+        assert main(words) == 1
+        assert capsys.readouterr().err == "error: the model has no value for R: give one\n"
 
 
 def test_a_model_without_redundancy_has_nothing_to_detect(
