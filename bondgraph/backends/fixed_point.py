@@ -197,8 +197,8 @@ def _limits(known: Known, ranges: Mapping[str, tuple[float, float]]) -> Limits:
         raise Unrepresentable(
             "has no range",
             known.origin,
-            f"Say `--range {path}=LOW..HIGH`{f' in {unit}' if unit else ''}, or give a log with"
-            " `--ranges LOG`.",
+            f"Say `--range {path}=LOW..HIGH`{f' in {unit}' if unit else ''}, or give a log in"
+            " which it is not always 0 with `--ranges LOG`.",
         )
     low, high = ranges[path]
     largest = max(abs(low), abs(high))

@@ -305,6 +305,10 @@ def test_ranges_come_from_a_log_and_from_options(
     limits = _limits_of((tmp_path / "out" / "motor.h").read_text())
     assert limits["U"] == (-8.0, 8.0) and limits["current"] == (-1.0, 1.0)
     assert limits["load"] == (-0.00390625, 0.00390625) and limits["speed"] == (0.0, 20.0)
+    log.write_text("t,load,U,current,speed\n0,0,1,300,-5\n0.001,0,-3,,7\n")
+    assert main([*common, "--ranges", str(log)]) == 1
+    told = " ".join(capsys.readouterr().err.split())
+    assert "`load` has no range" in told and "give a log in which it is not always 0" in told
     assert main([*common, "--range", "speed=-3..4 A"]) == 1
     assert "not in A" in capsys.readouterr().err
     assert main([*common, "--range", "sped=-3..4"]) == 2
