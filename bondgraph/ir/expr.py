@@ -349,7 +349,10 @@ class Pool:
     # ---------------------------------------------------------- functions
 
     def fn(self, name: str, *args: Expr) -> Expr:
-        """A function of `FUNCTIONS`, or `table:<id>`."""
+        """A function of `FUNCTIONS`, or `table:<id>`; of what it undoes it leaves the argument."""
+        inner = args[0]
+        if inner.op is Op.FN and inner.name in FUNCTIONS and FUNCTIONS[inner.name].inverse == name:
+            return inner.args[0]
         if len(args) == 1 and args[0] is self.zero and name in FUNCTIONS:
             value = FUNCTIONS[name].zero  # where some have no slope to differentiate
             if value is not None:

@@ -116,3 +116,26 @@ def test_every_kind_of_number_and_every_language_knows_every_function(name: str)
     assert not to_sympy(pool.fn(name, *x)).atoms(AppliedUndef)  # as an unknown function would be
     for target in targets():
         assert name in load(target).dialect.functions, target
+
+
+PAIRS = [(f.inverse, name) for name, f in FUNCTIONS.items() if isinstance(f.inverse, str)]
+
+
+@pytest.mark.parametrize(("outer", "inner"), PAIRS)
+def test_what_undoes_a_function_leaves_its_argument(outer: str, inner: str) -> None:
+    pool = Pool()
+    x = pool.symbol("x", Kind.SENSOR)
+    argument = pool.mul(pool.symbol("k", Kind.PARAM), x)
+    assert pool.fn(outer, pool.fn(inner, argument)) is argument
+    for at in points(inner):
+        assert truth(outer)(truth(inner)(mpmath.mpf(at))) == pytest.approx(at)
+
+
+@pytest.mark.parametrize(
+    ("outer", "inner", "at"), [("asin", "sin", 4), ("atan", "tan", 4), ("acosh", "cosh", -4)]
+)
+def test_what_undoes_one_branch_of_a_function_stays(outer: str, inner: str, at: int) -> None:
+    pool = Pool()
+    x = pool.symbol("x", Kind.SENSOR)
+    assert pool.fn(outer, pool.fn(inner, x)) is not x
+    assert truth(outer)(truth(inner)(mpmath.mpf(at))) != pytest.approx(at)
