@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Container, Mapping, Sequence
 from types import MappingProxyType
 
 from bondgraph.runtime.diagnosis.history import History
@@ -32,11 +32,13 @@ class Comparison:
         nominal: Mapping[str, float],
         tolerated: Sequence[Hypothesis] = (),
         machine: Mapping[str, float] = MappingProxyType({}),
+        dynamic: Container[str] = (),
     ) -> None:
         self._engine = copied(engine)
         self._healthy, self._own = healthy, own
         self._all, self._nominal = tuple(hypotheses), nominal
         self._tolerated, self._machine = tuple(tolerated), machine
+        self._dynamic = dynamic
         self._rows: list[tuple[Row, Array]] = []  # with the noise of each residual
         self._asked: set[int] = set()  # rows with which it was asked how well faults explain them
         self._faults: frozenset[str] = frozenset()  # that were asked for
@@ -75,8 +77,9 @@ class Comparison:
         """The rows so far beside these faults, asked for as often as it was."""
         own = [h for h in self._all if h.fault in faults]
         beside = SinceOnset(
-            self._engine, self._healthy, own, self._nominal, self._tolerated, self._machine
-        )
+            self._engine, self._healthy, own, self._nominal, self._tolerated, self._machine,
+            self._dynamic,
+        )  # fmt: skip
         for number, (row, sigma) in enumerate(self._rows, 1):
             beside.step(row, sigma)
             if number in self._asked and number < self._count:

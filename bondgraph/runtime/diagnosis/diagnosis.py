@@ -331,7 +331,9 @@ class Diagnosis:
         mean = self._limits[:, 4]
         count = samples_before(engine, samples, mean, self._history, last.slopes, noise, fired)
         # what is read late may have gone wrong before it showed
-        late = math.ceil(self._engine.lags[-1] / self._engine.sample_time)
+        # and what a machine does that was so for long is known once its filters have settled
+        late = self._engine.lags[-1] + self._engine.warm_up
+        late = math.ceil(late / self._engine.sample_time)
         first = begin
         while first > 0 and sum(len(row.samples) for row in past[first:begin]) < late:
             first -= 1

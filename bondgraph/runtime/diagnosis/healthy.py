@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from bondgraph.ir.expr import Op, topological
+from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
@@ -46,7 +46,8 @@ class DiagnosisModel(NamedTuple):
     residual; `deliveries` are the faults that are what a controller gives beyond its command;
     `switches` that may be stuck, by the name of the fault. `accepted` are faults that the machine
     is known to have, with the kind of their hypothesis and the deviation of what is known: what is
-    nominal is so with them. `doubles` tells which two faults at once
+    nominal is so with them. `dynamic` are the parameters that are multiplied with what changes, as
+    those of storages are: see `Hypothesis`. `doubles` tells which two faults at once
     could look like a third one, when it is asked.
     """
 
@@ -61,6 +62,7 @@ class DiagnosisModel(NamedTuple):
     switches: Mapping[str, Stuck]
     doubles: Callable[[], DoubleFaults]
     accepted: Mapping[tuple[str, str], float] = MappingProxyType({})
+    dynamic: frozenset[str] = frozenset()
 
     @property
     def nominal(self) -> dict[str, float]:
@@ -100,6 +102,7 @@ def diagnosis_model(
         frozenset(v.name for v in graph.values if v.delivery),
         known,
         doubles,
+        dynamic=dynamic(graph, residuals),
     )
 
 
@@ -148,6 +151,25 @@ def grouped(
         at = looks.setdefault(own, len(groups))
         groups[at:] = [(*groups[at], name), *groups[at + 1 :]] if at < len(groups) else [(name,)]
     return groups
+
+
+def dynamic(graph: BondGraph, residuals: ResidualSet) -> frozenset[str]:
+    """The parameters that relations multiply with a derivative or differentiate.
+
+    How these become others makes a difference: what is measured jumps, or it does not.
+    """
+    names = {v.symbol: v.name for v in graph.values if not v.delivery}
+    holds: dict[Expr, frozenset[str]] = {}
+    moves: set[Expr] = set()
+    found: set[str] = set()
+    for node in topological([r.expr for r in residuals.residuals]):
+        own = frozenset[str]().union(*[holds[a] for a in node.args])
+        holds[node] = own | ({names[node]} if node in names else frozenset())
+        if node.op is Op.DER or any(a in moves for a in node.args):
+            moves.add(node)
+            if node.op is not Op.ADD:  # the terms of a sum do not touch each other
+                found |= own
+    return frozenset(found)
 
 
 def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict[str, Nature]:

@@ -87,6 +87,7 @@ class _Lane:
         self.engines: list[Engine | None] = []  # None for an end at the machine as it is
         self.begin: Array | None = None  # the sample before the first: where encoders count from
         self.age = 0  # samples so far
+        self.left: Array | None = None  # what stays in the filter of the time before the onset
 
 
 class _Plan(NamedTuple):
@@ -203,6 +204,14 @@ class Bank:
         other._plan = _plan(other._lanes)
         return other
 
+    def onset(self, slopes: Array) -> None:
+        """What has held so far begins now; `slopes` are those of the last sample.
+
+        A filter shows for a while what came before. Of that nothing is to be seen.
+        """
+        for lane, left in zip(self._lanes, slopes, strict=True):
+            lane.left, lane.age = left.copy(), 0
+
     def run(self, samples: Array, at: Sequence[int] | None = None) -> Array:
         """The slopes after further (n, signals) samples; shape (n, hypotheses, residuals).
 
@@ -240,6 +249,9 @@ class Bank:
         slopes = np.take(value, up, axis=0)
         slopes -= np.take(value, down, axis=0)
         slopes /= plan.apart
+        for own, lane in zip(slopes, self._lanes, strict=True):
+            if lane.left is not None:
+                own -= lane.left * _forgotten(self.engine, lane.age - len(samples) + 1 + at)
         if not valid.all():
             slopes *= valid[up] & valid[down]
         return np.asarray(slopes.transpose(1, 0, 2))
@@ -287,6 +299,17 @@ class Bank:
             begin = lane.begin[self._place[hypothesis.fault]]
             return np.asarray(np.round(column + step * (column - begin)))
         return column + step * column
+
+
+def _forgotten(engine: Engine, samples: npt.NDArray[np.intp]) -> Array:
+    """What filters still show after so many samples of what was constant before, (n, residuals).
+
+    What the step response of equal stages is short of.
+    """
+    from scipy.special import gammaincc
+
+    constants = engine.bandwidth * engine.sample_time * samples
+    return np.asarray(gammaincc(engine.stages, constants[:, None]))
 
 
 class Instead:

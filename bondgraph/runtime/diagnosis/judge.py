@@ -137,7 +137,9 @@ class Judge:
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
         found = sized(engine, found, model.deliveries, model.nominal, samples)
         machine = as_it_is(tolerated, model.nominal, history)
-        self._compared = Comparison(engine, healthy, own, found, model.nominal, tolerated, machine)
+        self._compared = Comparison(
+            engine, healthy, own, found, model.nominal, tolerated, machine, model.dynamic
+        )
         for row in rows:
             self._compared.step(row, sigma)
 

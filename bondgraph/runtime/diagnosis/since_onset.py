@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from itertools import accumulate
 
 import numpy as np
@@ -45,15 +45,26 @@ _AT_ONCE = 2**19  # slopes that onsets take side by side
 _GROWS = 3  # rows within which a residual has become as large as the fault makes it
 
 
+class _Onset(NamedTuple):
+    """When a fault began, so many healthy samples before the first row, and how.
+
+    A storage that becomes another one keeps its charge or momentum, so that what is measured jumps,
+    or is `smooth`: what is measured goes on, as where it is filled up or something comes off.
+    """
+
+    earlier: int
+    smooth: bool = False
+
+
 class _Begun(NamedTuple):
-    """Hypotheses, by their numbers, that begin so many healthy samples before the first row.
+    """Hypotheses, by their numbers, that have begun at an onset.
 
     `slopes` are what they do to the rows, (rows, hypotheses, residuals), none where something is
     held. Those with a size go on in the `bank`, `bent` where their slopes are secants; of what is
     held there is what runs beside, and the rows as they would have been.
     """
 
-    onset: int
+    onset: _Onset
     numbers: Sequence[int]
     slopes: Array
     bank: Bank
@@ -96,6 +107,7 @@ class SinceOnset:
         nominal: Mapping[str, float],
         tolerated: Sequence[Hypothesis],
         machine: Mapping[str, float],
+        dynamic: Container[str] = (),
     ) -> None:
         self._engine = copied(engine)
         self._healthy = healthy
@@ -103,6 +115,7 @@ class SinceOnset:
         self._sized = [k for k, h in enumerate(self._all) if h.held is None]
         self._tolerated = tuple(tolerated)
         self._machine = machine
+        self._dynamic = {k for k, h in enumerate(self._all) if h.fault in dynamic}
         shape = len(self._all), len(engine.residuals)
         self._waiting: list[tuple[Row, Array]] = []  # with the noise of each residual
         self._past: list[tuple[Row, Array]] = []
@@ -116,12 +129,14 @@ class SinceOnset:
         self._again = 0  # rows with which secants are looked for again
         self._known: list[Explained] | None = None  # with all rows that are compared
         #: Healthy samples that come behind the onset, and the change that slopes are secants up to.
-        self._tried: dict[int, tuple[int, float | None]] = dict.fromkeys(self._sized, (0, None))
+        self._tried: dict[int, tuple[_Onset, float | None]] = dict.fromkeys(
+            self._sized, (_Onset(0), None)
+        )
         before, begin = self._onset(0)
         self._bank = self._banked(before, [self._all[k] for k in self._sized], begin, {})
         self._instead: dict[int, Instead] = {}
         held = [k for k, h in enumerate(self._all) if h.held is not None]
-        self._take(self._begun(held, 0, {}), held)
+        self._take(self._begun(held, _Onset(0), {}), held)
 
     def step(self, row: Row, sigma: Array) -> None:
         """One more row, and the noise (standard deviations) of its residuals."""
@@ -248,16 +263,18 @@ class SinceOnset:
         top = max((one.evidence for one in found), default=0.0)
         behind = {one.fault for one in found if one.evidence < top - _BEHIND}
         every = [k for k, one in enumerate(self._all) if one.fault not in behind]
-        hypotheses, changes = [self._all[k] for k in every], self._changes()
+        changes = self._changes()
         best: dict[str, tuple[float, _Begun]] = {}
         onsets, numbers = self._onsets(), len(self._past) * len(every) * self._slopes.shape[1]
         at_once = max(1, _AT_ONCE // max(1, numbers))
         for start in range(0, len(onsets), at_once):
-            begun = [self._begun(every, own, changes) for own in onsets[start : start + at_once]]
+            begun = [self._begun([k for k in every if not own.smooth or k in self._dynamic],
+                                 own, changes)
+                     for own in onsets[start : start + at_once]]  # fmt: skip
             rows, others = self._weighed([
-                {every.index(k): told for k, (_, told) in one.held.items()} for one in begun
+                {one.numbers.index(k): told for k, (_, told) in one.held.items()} for one in begun
             ])  # fmt: skip
-            cases = [Case(hypotheses, one.slopes, told)
+            cases = [Case([self._all[k] for k in one.numbers], one.slopes, told)
                      for one, told in zip(begun, others, strict=True)]  # fmt: skip
             explained = Evidence(rows, history).explained(cases)
             for trial, case in zip(begun, explained, strict=True):
@@ -267,12 +284,14 @@ class SinceOnset:
         for trial in {own.onset: own for _, own in best.values()}.values():
             self._take(trial, [k for k in every if best[self._all[k].fault][1] is trial])
 
-    def _onsets(self) -> list[int]:
-        """Healthy samples before the first row, with which a fault may have begun."""
+    def _onsets(self) -> list[_Onset]:
+        """When and how a fault may have begun."""
         constant = 1.0 / (self._engine.bandwidth * self._engine.sample_time)
         lags = [round(lag / self._engine.sample_time) for lag in self._engine.lags]
         found = dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS)
-        return [earlier for earlier in found if earlier <= len(self._healthy)]
+        known = [earlier for earlier in found if earlier <= len(self._healthy)]
+        return [_Onset(n, smooth) for smooth in (False, True)[: 1 + bool(self._dynamic)]
+                for n in known]  # fmt: skip
 
     def _banked(
         self,
@@ -297,10 +316,15 @@ class SinceOnset:
         """What slopes are secants up to, where they are."""
         return {k: change for k, (_, change) in self._tried.items() if change is not None}
 
-    def _begun(self, own: Sequence[int], onset: int, changes: Mapping[int, float]) -> _Begun:
-        """Let hypotheses, by their numbers, begin at an onset, and have the changes."""
-        before, begin = self._onset(onset)
-        healthy = self._healthy[len(self._healthy) - onset :]
+    def _begun(self, own: Sequence[int], onset: _Onset, changes: Mapping[int, float]) -> _Begun:
+        """Let hypotheses, by their numbers, begin at an onset, and have the changes.
+
+        A smooth one is that of a machine that has always been so, but for what filters show of the
+        time before.
+        """
+        count = len(self._healthy) - onset.earlier
+        before, begin = self._onset(len(self._healthy) if onset.smooth else onset.earlier)
+        past, healthy = self._healthy[:count], self._healthy[count:]
         held: dict[int, tuple[Instead, list[Rows]]] = {}
         for k in own:
             position = self._all[k].held
@@ -317,6 +341,8 @@ class SinceOnset:
         except ValueError:  # the model cannot take one of them
             bent, bank = {}, self._banked(before, known, begin, {})
         slopes = np.zeros((len(self._past), len(own), self._slopes.shape[1]))
+        if onset.smooth and count:
+            bank.onset(bank.run(past, [count - 1])[0])
         if sized:
             bank.run(healthy, ())
         if sized and self._past:

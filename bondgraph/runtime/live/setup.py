@@ -125,7 +125,7 @@ class Wide:
         self.readings = engine.readings
         self.sample_time, self.bandwidth = engine.sample_time, engine.bandwidth
         self.warm_up, self.parameters = engine.warm_up, engine.parameters
-        self.lags = engine.lags
+        self.stages, self.lags = engine.stages, engine.lags
         self.reads = np.pad(engine.reads, ((0, 0), (0, len(more))))  # of the others none
 
     def run(self, samples: Array, received: Array | None = None) -> Batch:

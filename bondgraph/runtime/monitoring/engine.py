@@ -57,6 +57,10 @@ class Engine(Protocol):
         """Seconds from the first sample until all residuals are valid."""
 
     @property
+    def stages(self) -> tuple[int, ...]:
+        """How many stages the filter of each residual has."""
+
+    @property
     def lags(self) -> tuple[float, ...]:
         """The delays with which residuals read signals, in s, none first."""
 
@@ -258,6 +262,7 @@ class OfSetting:
         self.signals, self.readings = setting.signals, setting.readings
         self.sample_time = 1.0 / setting.residuals.program.rate
         self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
+        self.stages = tuple(r.stages for r in setting.residuals.program.residuals)
         past = setting.residuals.program.delayed
         self.lags = tuple(sorted({0.0, *[d.seconds for d in past]}))
         self.parameters: Mapping[str, float] = setting.parameters

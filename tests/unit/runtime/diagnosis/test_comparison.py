@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.signal import lsim
 
 import bondgraph
 from bondgraph.pipeline import Compilation
@@ -41,7 +42,6 @@ _ONSET = 9.137  # s, in the middle of a row
 def _said(c: float = _C, w0: float = _W0, seconds: float = 16.0) -> list[Verdict]:
     """The speed is given, and the torque that it takes: J w' + c tanh(w/w0), c or w0 changed."""
     brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
-    engine = brake.engine()
     t = np.arange(round(seconds * _RATE)) / _RATE
     w = 1.5 + np.sin(2.0 * t) + 0.7 * np.sin(5.1 * t)
     rate = 2.0 * np.cos(2.0 * t) + 0.7 * 5.1 * np.cos(5.1 * t)
@@ -49,8 +49,13 @@ def _said(c: float = _C, w0: float = _W0, seconds: float = 16.0) -> list[Verdict
     drag = np.where(late, c, _C) * np.tanh(w / np.where(late, w0, _W0))
     draw = np.random.default_rng(5)
     columns = {"T": _J * rate + drag, "w": w + 1e-3 * draw.normal(size=len(t))}
+    return _watched(brake, t, columns)
+
+
+def _watched(model: Compilation, t: np.ndarray, columns: Mapping[str, np.ndarray]) -> list[Verdict]:
+    engine = model.engine()
     rows = np.column_stack([columns[k.path] for k in engine.signals])
-    diagnosis, base = brake.diagnosis(engine), engine.configured()
+    diagnosis, base = model.diagnosis(engine), engine.configured()
     said: list[Verdict] = []
     for k in range(0, len(t), 333):
         part = rows[k : k + 333]
@@ -69,6 +74,53 @@ def test_a_large_fault_of_a_bent_law_has_its_true_size(
     assert last.candidates[0].fault == fault
     assert last.candidates[0].size == pytest.approx(change, rel=0.06)
     assert last.candidates[0].probability > 0.7
+
+
+def test_a_storage_may_become_another_one_while_what_is_measured_goes_on() -> None:
+    # from t0 on J w' is larger by dJ w', through a filter of equal stages, and no step of dJ w is
+    brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
+    engine, facts = brake.engine(), brake.diagnosis_model
+    assert facts.dynamic == {"J"}
+    known = [h for h in hypotheses(engine, facts.faults, facts.units, {}) if h.fault == "J"]
+    t = np.arange(4000) / _RATE
+    columns = {"T": 0.0 * t, "w": 30.0 + np.sin(2.0 * t)}
+    samples = np.column_stack([columns[k.path] for k in engine.signals])
+    bank = Bank(engine.configured(bounds=False), known, facts.nominal)
+    begin = 1500
+    bank.onset(bank.run(samples[:begin])[-1])
+    slopes = bank.run(samples[begin:])[:, 0, 0]
+    (stages,), pole = engine.stages, engine.bandwidth
+    moved = np.where(t >= t[begin], 2.0 * np.cos(2.0 * t), 0.0)
+    for _ in range(stages):
+        moved = lsim(([pole], [1.0, pole]), moved, t)[1]
+    jump = 30.0 * pole  # about what the step of w would make of it
+    assert np.abs(np.abs(slopes) - np.abs(moved[begin:])).max() < 0.05 * 2.0 < 1e-3 * jump
+    assert np.abs(slopes[-500:]).max() > 1.5
+
+
+def test_a_room_that_becomes_heavier_at_its_temperature_is_no_wrong_heater() -> None:
+    # C T' + G (T - To) is the heat, with another C from one moment on: T goes on as it did
+    model = """bg 1
+model Room {
+    input P : W
+    input To : K
+    param C = 9e4 J/K
+    param G = 55 W/K
+    0:room { <- Sf:P; -> C:C; -> De:T; -> 1:wall { -> R:r = 1/G; -> Se:To } }
+}
+"""
+    room = Compilation(Source("room.bg", model), options=bondgraph.Options(rate=0.1))
+    t = np.arange(9000) / 0.1
+    temperature = 293.0 + 2.0 * np.sin(t / 3000.0) + np.sin(t / 1100.0)
+    rate = 2.0 / 3000.0 * np.cos(t / 3000.0) + np.cos(t / 1100.0) / 1100.0
+    heat = 9e4 * np.where(t >= 60_000.0, 1.4, 1.0) * rate + 55.0 * (temperature - 280.0)
+    draw = np.random.default_rng(3)
+    columns = {"P": heat, "To": 0.0 * t + 280.0, "T": temperature + 0.01 * draw.normal(size=len(t))}
+    updates = [v for v in _watched(room, t, columns) if v.event == "update"]
+    assert updates
+    for one in updates:
+        assert one.candidates[0].fault == "C"
+        assert one.candidates[0].size == pytest.approx(0.4 * 9e4, rel=0.1)
 
 
 def test_a_fault_is_dated_within_the_time_that_the_filter_takes() -> None:
