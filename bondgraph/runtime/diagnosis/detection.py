@@ -115,6 +115,11 @@ class Detection:
         self.alarms += first
         return first
 
+    @property
+    def ending(self) -> bool:
+        """Whether the last rows of all that have fired were rather those of a healthy machine."""
+        return self.alarmed and bool((self._healthy[self.fired] > 0.0).all())
+
     def suspects(self, row: Row, limits: Array) -> bool:
         """Whether something is further out than it usually is, though nothing has fired yet."""
         loud = np.abs(row.value) - row.bound > 0.5 * limits[:, 2] * limits[:, 0]

@@ -233,7 +233,8 @@ class Diagnosis:
             row, self._past, self._limits[:, 0], self._tolerated, self._history
         ):
             known = self._judge.best
-            if not self._unusual():
+            ending = self._detection.ending and self._judge.said
+            if not (self._unusual() or ending):
                 self._explain(row, out)
             if known is None and self._judge.best is not None:
                 self._detection.reconsider()

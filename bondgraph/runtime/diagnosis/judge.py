@@ -71,8 +71,12 @@ class Judge:
     @property
     def waits(self) -> bool:
         """Whether a fault may be named that has not been yet, with a few rows more."""
-        said = self.latched is not None and self.latched.said is not None
-        return not said and self._after < _JUDGE + 2
+        return not self.said and self._after < _JUDGE + 2
+
+    @property
+    def said(self) -> bool:
+        """Whether it was told what the fault can be."""
+        return self.latched is not None and self.latched.said is not None
 
     @property
     def best(self) -> str | None:
@@ -217,7 +221,10 @@ class Judge:
         best = verdict.candidates[0] if verdict.candidates and not verdict.pairs else None
         two = verdict.pairs[0].faults if verdict.pairs else ()
         wanted = Judgement(sure, best and best.fault, two, best and best.size)
-        again = self._wanted is not None and self._wanted.says(wanted)
+        before = self._wanted
+        again = before is not None and before.says(wanted)
+        if again and self.latched.said is not None and wanted.grown(self.latched.said):
+            again = before.grown(self.latched.said)
         self._wanted = wanted
         if not news(self.latched, wanted, again, self._after - self._told):
             if news(self.latched, wanted, True, LONGEST):  # to be told, once that is confirmed

@@ -98,8 +98,11 @@ def test_a_storage_may_become_another_one_while_what_is_measured_goes_on() -> No
     assert np.abs(slopes[-500:]).max() > 1.5
 
 
-def test_a_room_that_becomes_heavier_at_its_temperature_is_no_wrong_heater() -> None:
-    # C T' + G (T - To) is the heat, with another C from one moment on: T goes on as it did
+def _room(
+    heavier: Callable[[np.ndarray], np.ndarray] = np.ones_like,
+    delivered: Callable[[np.ndarray], np.ndarray] = np.ones_like,
+) -> list[Verdict]:
+    """C T' + G (T - To) is the heat, with another C at times, or a heater that gives less."""
     model = """bg 1
 model Room {
     input P : W
@@ -113,10 +116,22 @@ model Room {
     t = np.arange(9000) / 0.1
     temperature = 293.0 + 2.0 * np.sin(t / 3000.0) + np.sin(t / 1100.0)
     rate = 2.0 / 3000.0 * np.cos(t / 3000.0) + np.cos(t / 1100.0) / 1100.0
-    heat = 9e4 * np.where(t >= 60_000.0, 1.4, 1.0) * rate + 55.0 * (temperature - 280.0)
+    heat = (9e4 * heavier(t) * rate + 55.0 * (temperature - 280.0)) / delivered(t)
     draw = np.random.default_rng(3)
     columns = {"P": heat, "To": 0.0 * t + 280.0, "T": temperature + 0.01 * draw.normal(size=len(t))}
-    updates = [v for v in _watched(room, t, columns) if v.event == "update"]
+    return _watched(room, t, columns)
+
+
+def test_of_a_fault_that_ends_nothing_else_is_told_before_it_is_over() -> None:
+    said = _room(delivered=lambda t: np.where((t >= 40_000.0) & (t < 65_000.0), 0.7, 1.0))
+    updates = [v for v in said if v.event == "update"]
+    assert updates[-1].candidates[0].fault == "P"
+    assert updates[-1].candidates[0].size == pytest.approx(-30.0, abs=1.0)
+    assert said[-1].event == "cleared"
+
+
+def test_a_room_that_becomes_heavier_at_its_temperature_is_no_wrong_heater() -> None:
+    updates = [v for v in _room(lambda t: np.where(t >= 60_000.0, 1.4, 1.0)) if v.event == "update"]
     assert updates
     for one in updates:
         assert one.candidates[0].fault == "C"
