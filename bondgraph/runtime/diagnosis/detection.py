@@ -115,10 +115,11 @@ class Detection:
         self.alarms += first
         return first
 
-    @property
-    def ending(self) -> bool:
-        """Whether the last rows of all that have fired were rather those of a healthy machine."""
-        return self.alarmed and bool((self._healthy[self.fired] > 0.0).all())
+    def ending(self, row: Row, limits: Array) -> bool:
+        """Whether a fault seems to end: nothing that has fired is out in this row, or was lately."""
+        loud = np.abs(row.value) - row.bound > limits[:, 0]
+        quiet = bool((self._healthy[self.fired] > 0.0).all())
+        return quiet or not (row.valid & self.fired & loud).any()
 
     def suspects(self, row: Row, limits: Array) -> bool:
         """Whether something is further out than it usually is, though nothing has fired yet."""

@@ -233,7 +233,7 @@ class Diagnosis:
             row, self._past, self._limits[:, 0], self._tolerated, self._history
         ):
             known = self._judge.best
-            ending = self._detection.ending and self._judge.said
+            ending = self._judge.said and self._detection.ending(own, self._limits)
             if not (self._unusual() or ending):
                 self._explain(row, out)
             if known is None and self._judge.best is not None:

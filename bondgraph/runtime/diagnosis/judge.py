@@ -221,10 +221,10 @@ class Judge:
         best = verdict.candidates[0] if verdict.candidates and not verdict.pairs else None
         two = verdict.pairs[0].faults if verdict.pairs else ()
         wanted = Judgement(sure, best and best.fault, two, best and best.size)
-        before = self._wanted
+        before, told = self._wanted, self.latched.said
         again = before is not None and before.says(wanted)
-        if again and self.latched.said is not None and wanted.grown(self.latched.said):
-            again = before.grown(self.latched.said)
+        if before is not None and told is not None and wanted.grown(told):
+            again &= before.grown(told)
         self._wanted = wanted
         if not news(self.latched, wanted, again, self._after - self._told):
             if news(self.latched, wanted, True, LONGEST):  # to be told, once that is confirmed
