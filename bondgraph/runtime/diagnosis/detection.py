@@ -116,7 +116,7 @@ class Detection:
         return first
 
     def ending(self, row: Row, limits: Array) -> bool:
-        """Whether a fault seems to end: nothing that has fired is out in this row, or was lately."""
+        """Whether a fault seems to end: nothing that has fired is out in a row, or was lately."""
         loud = np.abs(row.value) - row.bound > limits[:, 0]
         quiet = bool((self._healthy[self.fired] > 0.0).all())
         return quiet or not (row.valid & self.fired & loud).any()
