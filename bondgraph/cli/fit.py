@@ -212,7 +212,7 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
     if any(p.bound for p in found.parameters):
         names = ", ".join(p.name for p in found.parameters if p.bound)
         lines += ["", f"With another sign {names} would fit better: see to the signs of the"
-                  " signals, and to the model."]  # fmt: skip
+                  " signals, and to the model, unless the logs hardly tell of it."]  # fmt: skip
     if found.combinations:
         lines += ["", "What the logs cannot tell (such parameters stay near their nominal values)"]
         for c in found.combinations:

@@ -224,7 +224,7 @@ def fit(
             problem.weigh(at)
         at = problem.solve(at)
         progress((k + 1) / (_ROUNDS + 1))
-    whole, bound = problem.covariance(at)
+    whole = problem.covariance(at)
     names = problem.names
     count = len(names)
     covariance = whole[:count, :count]
@@ -232,6 +232,7 @@ def fit(
     if len(null):  # what nothing tells stays as it is declared
         problem.pin(null)
         at = problem.solve(at)
+    bound = problem.bound(at)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
     left = problem.left(at)
     if any(x.much for x in left):
@@ -572,15 +573,18 @@ class _Problem:
         away = _inverse(curved, self._spread) @ np.einsum("atr,tr->a", by, value)
         return np.asarray(away[: len(self.names)])
 
-    def covariance(self, at: Array) -> tuple[Array, Mask]:
-        """Of the parameters, relative; and which of them are where their sign would change.
+    def bound(self, at: Array) -> Mask:
+        """Which parameters are where their sign would change."""
+        return (at <= self._low * (1 - 1e-3)) | (at >= self._high * (1 - 1e-3))
+
+    def covariance(self, at: Array) -> Array:
+        """Of the parameters, relative, also of those at a bound: others make up for them.
 
         A sandwich: what the curvature says, and how much the slope of the sum of squares scatters
         with what is left as it is, correlated or not (Newey and West 1987). The noise in the
         slopes themselves tells nothing of the parameters and is taken off the curvature.
         """
         s = self._slopes(at)
-        bound = (at <= self._low * (1 - 1e-3)) | (at >= self._high * (1 - 1e-3))
         _, _, whole, noise = self._normal([at])
         rows = self._mask.sum(axis=0)
         error = rows * (1.0 - noise[0] / np.maximum(whole[0], 1e-300)) / 4.0
@@ -591,13 +595,9 @@ class _Problem:
         mine = np.einsum("tr,atr->ta", s.added, s.added_by)
         scatter = newey_west(own) + newey_west(mine)
         prior = np.diag(self._spread**-2.0)
-        free = ~bound
-        curved, scatter, prior = (m[np.ix_(free, free)] for m in (curved, scatter, prior))
-        inverse = _inverse(curved, self._spread[free])
-        found = np.zeros((len(at), len(at)))
+        inverse = _inverse(curved, self._spread)
         scatter *= few_rows(len(own)) ** 2 * len(own) / max(len(own) - len(at), 1)
-        found[np.ix_(free, free)] = inverse @ (scatter + prior) @ inverse
-        return found, bound
+        return np.asarray(inverse @ (scatter + prior) @ inverse)
 
     def suspects(self, at: Array, units: Mapping[str, str]) -> tuple[Suspect, ...]:
         """The offsets that would explain what is left, each by itself, the most likely one first.

@@ -84,6 +84,20 @@ def test_of_a_blocked_rotor_the_constant_of_the_motor_is_not_told() -> None:
     assert math.isclose(constant.value, constant.nominal, rel_tol=0.02)
 
 
+def test_what_makes_up_for_a_parameter_at_its_bound_is_no_surer_than_that() -> None:
+    # of a current of nearly one size either way, R y + q y|y| is hardly more than (R + q) y
+    text = """bg 1
+    model M { param R = 2 Ohm; param q = 0.3; Se:U -> 1:i; i -> R:R; i -> Df:y
+      i -> R:t { e = q*f*abs(f) } }"""
+    y = np.tanh(20.0 * np.sin(7.0 * TIME)) * (1.0 + 0.1 * np.sin(3.0 * TIME))
+    seeds = range(6)
+    for seed in seeds:
+        found = fitted(text, U=3.0 * y + 0.02 * y * np.abs(y), y=y + noise(0.1, seed))
+        by = {p.name: p for p in found.parameters}
+        assert abs(by["R"].value + by["q"].value - 3.02) < 0.01
+        assert by["R"].interval is None or holds(by["R"], 3.0)
+
+
 @pytest.mark.parametrize("long", [True, False])
 def test_which_log_would_tell_an_inductance_that_a_slow_current_hardly_shows(long: bool) -> None:
     text = """bg 1
