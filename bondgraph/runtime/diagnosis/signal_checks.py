@@ -81,8 +81,9 @@ class SignalChecks:
     does not keep others from being looked at.
 
     `inputs` drive the machine: they may jump and be rough as never before, and so may sensors
-    then. What an input shows so is not told by itself; whether it is wrong residuals say. Of
-    `encoders`, by their columns, is told which stands still while others go on.
+    then. What an input shows so is not told by itself; whether it is wrong residuals say. Nor does
+    one stand still that is as large as ever, or as small: controllers are limited. Of `encoders`,
+    by their columns, is told which stands still while others go on.
     """
 
     def __init__(
@@ -92,6 +93,7 @@ class SignalChecks:
         self._encoders = StandingEncoders(encoders)
         self._names, self._at, self._step = tuple(names), list(at), sample_time
         self._inputs = inputs
+        self._drive = np.array([name in inputs for name in self._names], dtype=np.bool_)
         count = len(self._names)
         self._seen: list[Array] = []  # healthy samples until the weights are known
         self._weights = np.empty((0, 2))  # (signals, 2): of the nearest and the next ones
@@ -143,8 +145,12 @@ class SignalChecks:
             return {}, ()
         far, rough, moved, where = self._looked_at(with_last)
         found = {}
-        span = np.fmax(self._range[1], own.max(axis=0)) - np.fmin(self._range[0], own.min(axis=0))
+        top = np.fmax(self._range[1], own.max(axis=0))
+        bottom = np.fmin(self._range[0], own.min(axis=0))
+        span = top - bottom
         sizes = self._unusual(far, rough, moved, runs, span)
+        ends = (own[-1] >= top) | (own[-1] <= bottom)
+        sizes["stuck"][0][ends & self._drive] = False  # a command at the end of what it can do
         for kind, (out, now, before) in sizes.items():
             for k in np.flatnonzero(out & (self._samples >= _ENOUGH)).tolist():
                 late = len(with_last) - 1 - where[k] if kind == "spike" else len(own) - 1

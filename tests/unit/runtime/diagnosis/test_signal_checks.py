@@ -104,6 +104,16 @@ def test_a_command_without_noise_may_be_held() -> None:
     assert _looked(samples) == []
 
 
+@pytest.mark.parametrize(("value", "told"), [(0.5, True), (1.2, False), (-0.2, False)])
+def test_a_command_of_a_controller_may_stand_at_its_limits(value: float, told: bool) -> None:
+    samples = _signals(6)
+    samples[3000:3400, 1] = value
+    checks = SignalChecks(["y", "q", "T"], [0, 1, 2], _STEP, inputs=("q",))
+    rows = [samples[k : k + _ROW] for k in range(0, len(samples) - _ROW + 1, _ROW)]
+    said = [one for k, row in enumerate(rows) for one in checks.row(k * _ROW * _STEP, row, True)]
+    assert [(one.signal, one.kind) for one in said] == [("q", "stuck")] * told
+
+
 def test_what_comes_back_soon_is_not_told_each_time() -> None:
     samples = _signals(8)
     samples[2000:4000:130, 2] += 3.0  # sixteen spikes, one in five rows
