@@ -23,7 +23,7 @@ from bondgraph.runtime.diagnosis.hypotheses import (
 )
 from bondgraph.runtime.diagnosis.noise import noise, uncovered
 from bondgraph.runtime.diagnosis.row_averages import lasting
-from bondgraph.runtime.diagnosis.rows import Row, averaged, weight
+from bondgraph.runtime.diagnosis.rows import Row, averaged, steady, weight
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
@@ -355,7 +355,7 @@ def _higher(
             waiting.append(row)
             if len(waiting) > HEALTHY:
                 old = waiting.popleft()
-                history.add(old.value, weight(old, own[:, 0]), old.slopes)
+                history.add(*steady(old, weight(old, own[:, 0])))
         cusum.end()
     heights = dict(zip(residuals, cusum.heights(own[:, 3]).max(axis=0).tolist(), strict=True))
     return {name: limit._replace(height=heights[name]) for name, limit in found.items()}

@@ -25,6 +25,7 @@ from bondgraph.runtime.diagnosis.rows import (
     Row,
     all_of,
     averaged,
+    steady,
     to_row_ends,
     together,
     usual,
@@ -267,7 +268,7 @@ class Diagnosis:
             old = self._calm.popleft()
             if self._levels.walking:
                 self._levels.learn(*self._beside(old))
-            self._history.add(old.value, self._weight(old), old.slopes)
+            self._history.add(*steady(old, self._weight(old)))
             self._origins.learn(self._tolerated, self._history)
 
     def _beside(self, row: Row) -> tuple[Array, Mask]:

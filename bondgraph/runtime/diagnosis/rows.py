@@ -90,6 +90,18 @@ def all_of(pieces: Sequence[tuple[int, Average]]) -> Average:
     return Average(np.where(sound, whole, 0.0), sound, np.einsum("n,npr->pr", counts, slopes))
 
 
+def steady(row: Row, weights: Array) -> tuple[Array, Array, Array]:
+    """What a row tells of parameters: residuals, their weights and slopes, averages of its samples.
+
+    A sensor's noise is in slopes as in residuals, and a parameter is drawn to where it makes least
+    of it: to a spring without compliance, where force is differentiated. In averages little is left
+    of noise that is differentiated, and most of what a machine does.
+    """
+    if row.average is None:
+        return row.value, weights, row.slopes
+    return row.average.value, np.where(row.average.valid, weights, 0.0), row.average.slopes
+
+
 def together(parts: Sequence[Batch], residuals: int) -> Batch:
     """The residuals of samples that follow each other."""
     nothing = np.zeros((0, residuals))

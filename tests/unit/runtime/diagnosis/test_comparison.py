@@ -248,3 +248,29 @@ def _last(compared: Comparison) -> np.ndarray:
     beside = compared._beside
     assert beside is not None
     return np.asarray(beside._rows[-1].slopes)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_of_a_force_that_is_differentiated_tells_nothing_of_its_spring(seed: int) -> None:
+    # what stands still is as well with any spring; with a stiffer one there is less noise
+    text = """bg 1
+model Web {
+    input v : m/s
+    param K = 600 N/m +- 10%
+    0:web { <- Sf:v; -> C:K = 1/K; -> De:T }
+}
+"""
+    web = Compilation(Source("web.bg", text), options=bondgraph.Options(rate=1000.0))
+    t = np.arange(30_000) / 1000.0
+    draw = np.random.default_rng(seed)
+    columns = {"v": 0.0 * t, "T": 2.0 + 0.02 * draw.normal(size=len(t))}
+    engine = web.engine()
+    rows = np.column_stack([columns[k.path] for k in engine.signals])
+    diagnosis, base = web.diagnosis(engine), engine.configured()
+    for k in range(0, len(t), 333):
+        part = rows[k : k + 333]
+        diagnosis.update(t[k : k + 333], base.run(part), part)
+    state = diagnosis.state()
+    known = History(np.array(state["prior"]))
+    known.root = np.array(state["history"])
+    assert abs(known.fit()[0]) < 0.1 * 600.0
