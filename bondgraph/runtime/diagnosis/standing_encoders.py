@@ -65,17 +65,20 @@ class StandingEncoders:
         self._last = own[-1]
         if healthy:
             self._learn(np.nan_to_num(steps))
-        needed = self._needed()
-        for k in range(len(self.names)):
+        moved = steps[::-1] != 0.0  # or unknown; the last sample first
+        ran = np.where(moved.any(axis=0), moved.argmax(axis=0), len(own))
+        needed = self._needed() if ran.any() else None
+        for k, samples_ago in enumerate(ran.tolist()):
             since, before = own, self._run[k] + 1.0
-            if len(moved := np.flatnonzero(steps[:, k] != 0.0)):  # or unknown
-                since, before = own[moved[-1] :], 0.0
+            if samples_ago < len(own):
+                since, before = own[len(own) - 1 - samples_ago :], 0.0
                 self._from[k], self._after[k] = since[0], math.inf
-            far = np.abs(since - self._from[k]) >= needed[k]
-            late = np.where(far.any(axis=0), before + far.argmax(axis=0), math.inf)
-            self._after[k] = np.minimum(self._after[k], late)
+            if needed is not None and samples_ago:
+                far = np.abs(since - self._from[k]) >= needed[k]
+                late = np.where(far.any(axis=0), before + far.argmax(axis=0), math.inf)
+                self._after[k] = np.minimum(self._after[k], late)
             self._run[k] = before + len(since) - 1.0
-        found = self._found(among, needed)
+        found = {} if needed is None or not among else self._found(among, needed)
         self.stood = {*self.stood.intersection(among), *found}
         return found
 
