@@ -95,11 +95,13 @@ def steady(row: Row, weights: Array) -> tuple[Array, Array, Array]:
 
     A sensor's noise is in slopes as in residuals, and a parameter is drawn to where it makes least
     of it: to a spring without compliance, where force is differentiated. In averages little is left
-    of noise that is differentiated, and most of what a machine does.
+    of noise that is differentiated, and most of what a machine does. Where there is none, as of the
+    row in which a residual begins to be valid, its last sample tells.
     """
     if row.average is None:
         return row.value, weights, row.slopes
-    return row.average.value, np.where(row.average.valid, weights, 0.0), row.average.slopes
+    value, sound, slopes = row.average
+    return np.where(sound, value, row.value), weights, np.where(sound, slopes, row.slopes)
 
 
 def together(parts: Sequence[Batch], residuals: int) -> Batch:
