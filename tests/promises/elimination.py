@@ -175,13 +175,14 @@ def relations_hold_known_signals_only(reduced: ReducedSystem) -> Iterator[str]:
 def relations_are_raw_where_nothing_was_differentiated(reduced: ReducedSystem) -> Iterator[str]:
     """A relation is another than its raw form only where it was differentiated or freed of a start.
 
-    Nor is it of a higher order than the raw form says.
+    Nor is it of a higher order than the raw form says. One that was integrated is what it is.
     """
     for closing in reduced.closings:
         free = _other_kinds([closing.raw], _FINAL)
         if closing.expr is not closing.raw and not (closing.differentiated or free):
             yield f"{closing.equation.name}"
-        if closing.differentiated < 0 or closing.differentiated > highest_order([closing.expr]):
+        integrated = closing.differentiated == -1 and closing.expr is closing.raw
+        if not integrated and not 0 <= closing.differentiated <= highest_order([closing.expr]):
             yield f"{closing.equation.name} is differentiated {closing.differentiated} times"
 
 
