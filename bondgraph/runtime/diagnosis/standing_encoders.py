@@ -7,6 +7,7 @@ does from then on, and no gain or offset of what it reads is that. But its count
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
@@ -20,6 +21,7 @@ _COUNTS = 10.0  # that one would have gone on by, and does not
 _LOOSE = 10.0  # times what it was ever off in a row: a shaft that is held is twisted by some times
 _TIED = 0.99  # of what one does in a row follows from what the other one does, in squares
 _ROWS = 20  # from which that is known
+_LATE = 5  # rows before an alarm that may have been faulty already
 _SLOW = 50.0  # times as long as that takes at the usual speed: who was at rest may go on alone
 
 
@@ -45,6 +47,7 @@ class StandingEncoders:
         self._gone = np.zeros(count)  # counts in that time, forth and back
         self._products = np.zeros((count, count))  # of what two have come to in rows, added up
         self._off = np.zeros((count, count))  # of the first, beside what the second lets expect
+        self._calm: deque[Array] = deque()  # steps of rows that are learned from when more are well
         #: Those that have stood still since there are suspects: what was not counted is lost.
         self.stood: set[str] = set()
         self.restart()
@@ -63,8 +66,11 @@ class StandingEncoders:
         own = samples[:, self._at]
         steps = np.diff(np.concatenate([self._last[None], own]), axis=0)
         self._last = own[-1]
-        if healthy:
-            self._learn(np.nan_to_num(steps))
+        self._calm.append(np.nan_to_num(steps))
+        if not healthy:
+            self._calm.clear()
+        elif len(self._calm) > _LATE:
+            self._learn(self._calm.popleft())
         moved = steps[::-1] != 0.0  # or unknown; the last sample first
         ran = np.where(moved.any(axis=0), moved.argmax(axis=0), len(own))
         needed = self._needed() if ran.any() else None

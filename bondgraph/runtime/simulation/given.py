@@ -169,7 +169,7 @@ class Given(Acting):
         return tuple(dict.fromkeys((*super().disturbed, *self.errors)))
 
     def _signal(self, name: str, order: int) -> Callable[[float], float]:
-        plain, target = super()._signal(name, order), _erring(name)
+        plain, target = super()._signal(name, order), _biased(name)
         if target not in self.errors or order > 1:
             return plain
         return lambda t: plain(t) + self.error(target, t, order)
@@ -177,7 +177,7 @@ class Given(Acting):
     def before(self, machine: Machine) -> list[float]:
         """See `Acting`; an instrument errs before the start as at the start."""
         told = zip(super().before(machine), machine.signals, strict=True)
-        return [x + (0.0 if s.order else self.error(_erring(s.name), 0.0)) for x, s in told]
+        return [x + (0.0 if s.order else self.error(_biased(s.name), 0.0)) for x, s in told]
 
     def _function(self, course: Course, order: int = 0) -> Callable[[float], float]:
         return courses.function(course, self.graph.pool, self.values, order)
@@ -230,7 +230,7 @@ class Given(Acting):
             return False
         if target in self.wrong and self.wrong[target].sets_in(t):
             return True
-        own = self.errors.get(_erring(name))
+        own = self.errors.get(_biased(name))
         return own is not None and target in super().disturbed and courses.moves(own, order)
 
     def control(
@@ -302,7 +302,7 @@ def _multiple(t: float, period: float) -> bool:
     return abs(t / period - round(t / period)) < 1e-6
 
 
-def _erring(signal: str) -> str:
+def _biased(signal: str) -> str:
     """The sensor, value or input that a signal of the machine is the bias of; empty for others."""
     return signal.removeprefix(_BIAS) if signal.startswith(_BIAS) else ""
 

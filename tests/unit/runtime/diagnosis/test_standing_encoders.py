@@ -62,6 +62,15 @@ def test_one_that_sticks_is_told_in_the_row_in_which_the_other_has_gone_on(colum
     assert found[-1] == {name: (len(found) * _ROW - 1 - begun, other)}
 
 
+def test_rows_before_an_alarm_are_not_taken_for_healthy_ones() -> None:
+    encoders, samples = known(swing())
+    samples[:, 0] = samples[0, 0]
+    late = 3 * _ROW
+    for begin in range(0, late, _ROW):
+        assert not encoders.row(samples[begin : begin + _ROW], True, ())
+    assert seen(encoders, samples[late:])[0].keys() == {"motor"}
+
+
 def test_a_machine_at_rest_has_no_encoder_that_sticks() -> None:
     encoders, samples = known(swing())
     samples[1000:] = samples[1000]
