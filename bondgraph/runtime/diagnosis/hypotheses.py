@@ -18,6 +18,7 @@ from bondgraph.text.tuples import NamedTuple
 _STEP = 1e-5  # relative change that a sensitivity is taken from
 _USUAL = 0.3  # share of what a fault usually changes: of a value, of the size of a signal
 _COUNTS = 0.02  # share of an encoder's counts: smaller ones would drown in rounding
+_SLOWLY = 40.0  # time constants of the filter in which a sensor drifts as far as it is usually off
 _SLIP = 1 / 8  # of a turn, by which an encoder usually slips
 _AT_ONCE = 2**18  # numbers that the engines of a bank take and give in one call
 
@@ -61,10 +62,10 @@ class Hypothesis(NamedTuple):
 
     `value`: a parameter has another value; `offset`: a signal is wrong by a constant (an encoder
     has slipped); `gain`: a signal is wrong by a share of itself (an encoder misses counts);
-    `drift`: an encoder misses so many counts a second (it stands still); `start`: only the first
-    sample of a signal is, so that what is remembered of it is wrong; `stuck`: what acts is
-    `held` at a position, whatever is told, which has no size but 1. `unit` is that of the change,
-    `usual` the size that is expected of it before anything is seen.
+    `drift`: an encoder misses so many counts a second, another sensor goes away at such a rate;
+    `start`: only the first sample of a signal is, so that what is remembered of it is wrong;
+    `stuck`: what acts is `held` at a position, whatever is told, which has no size but 1. `unit` is
+    that of the change, `usual` the size that is expected of it before anything is seen.
     A wrong sensor is so for who measures with it: a law that uses its reading acted on just this
     number, so that only the measurement is changed.
     `turned` says that a change of the machine moves residuals like the opposite change of what the
@@ -177,7 +178,7 @@ class Bank:
         if hypothesis.kind == "gain":
             return _COUNTS if counts else _STEP
         if hypothesis.kind == "drift":
-            return max(1.0, _COUNTS * hypothesis.usual)
+            return max(1.0, _COUNTS * hypothesis.usual) if counts else hypothesis.usual
         return max(1.0, round(hypothesis.usual)) if counts else _STEP * hypothesis.usual
 
     def _counts(self, hypothesis: Hypothesis) -> bool:
@@ -293,7 +294,8 @@ class Bank:
             return told
         if hypothesis.kind == "drift":
             since = (lane.age + 1 + np.arange(len(column))) * self.engine.sample_time
-            return np.asarray(np.round(column + step * since))
+            told = column + step * since
+            return np.asarray(np.round(told) if self._counts(hypothesis) else told)
         if self._counts(hypothesis):
             assert lane.begin is not None
             begin = lane.begin[self._place[hypothesis.fault]]
@@ -354,13 +356,16 @@ def hypotheses(
     units: Mapping[str, str],
     sizes: Mapping[str, float],
     switches: Mapping[str, Stuck] = MappingProxyType({}),
+    drifts: bool = False,
 ) -> tuple[Hypothesis, ...]:
     """All that may be wrong: a value for each parameter, offset and gain for each signal.
 
     `faults` are the paths that some residual sees, with the nominal value of a parameter and None
     for a signal; `sizes` is the usual size of a signal, of an encoder its speed in rad/s. Modes are
     wrong as `switches`, by the name of the fault. Where there are any, commands may be lost: that
-    is as certain in what it does, and would have to lose against them otherwise.
+    is as certain in what it does, and would have to lose against them otherwise. With `drifts`
+    a sensor whose reading is differentiated may go away steadily: its rate is in the relation as
+    well, which no offset has.
     """
     signals = {k.path: k for k in engine.signals}
     found = []
@@ -384,6 +389,9 @@ def hypotheses(
             if counts is not None:
                 rate = _USUAL * size * counts / (2 * math.pi)
                 found.append(Hypothesis(path, "drift", "count/s", rate, turned))
+            elif drifts and not turned and signals[path].highest > 0:
+                rate = usual * engine.bandwidth / _SLOWLY
+                found.append(Hypothesis(path, "drift", f"{unit or 1}/s", rate, False))
     found += [Hypothesis(f, "stuck", "", 1.0, True, s) for f, s in switches.items()]
     return tuple(found)
 

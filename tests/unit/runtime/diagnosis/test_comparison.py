@@ -35,6 +35,15 @@ model Brake {{
     sensor w : rad/s = rotor.f
 }}
 """
+_ROOM = """bg 1
+model Room {
+    input P : W
+    input To : K
+    param C = 9e4 J/K
+    param G = 55 W/K
+    0:room { <- Sf:P; -> C:C; -> De:T; -> 1:wall { -> R:r = 1/G; -> Se:To } }
+}
+"""
 _RATE = 500.0
 _ONSET = 9.137  # s, in the middle of a row
 
@@ -101,24 +110,20 @@ def test_a_storage_may_become_another_one_while_what_is_measured_goes_on() -> No
 def _room(
     heavier: Callable[[np.ndarray], np.ndarray] = np.ones_like,
     delivered: Callable[[np.ndarray], np.ndarray] = np.ones_like,
+    off: Callable[[np.ndarray], np.ndarray] = np.zeros_like,
 ) -> list[Verdict]:
-    """C T' + G (T - To) is the heat, with another C at times, or a heater that gives less."""
-    model = """bg 1
-model Room {
-    input P : W
-    input To : K
-    param C = 9e4 J/K
-    param G = 55 W/K
-    0:room { <- Sf:P; -> C:C; -> De:T; -> 1:wall { -> R:r = 1/G; -> Se:To } }
-}
-"""
-    room = Compilation(Source("room.bg", model), options=bondgraph.Options(rate=0.1))
+    """C T' + G (T - To) is the heat, with another C at times, or a heater that gives less.
+
+    The thermometer may be off.
+    """
+    room = Compilation(Source("room.bg", _ROOM), options=bondgraph.Options(rate=0.1))
     t = np.arange(9000) / 0.1
     temperature = 293.0 + 2.0 * np.sin(t / 3000.0) + np.sin(t / 1100.0)
     rate = 2.0 / 3000.0 * np.cos(t / 3000.0) + np.cos(t / 1100.0) / 1100.0
     heat = (9e4 * heavier(t) * rate + 55.0 * (temperature - 280.0)) / delivered(t)
     draw = np.random.default_rng(3)
-    columns = {"P": heat, "To": 0.0 * t + 280.0, "T": temperature + 0.01 * draw.normal(size=len(t))}
+    shown = temperature + off(t) + 0.01 * draw.normal(size=len(t))
+    columns = {"P": heat, "To": 0.0 * t + 280.0, "T": shown}
     return _watched(room, t, columns)
 
 
@@ -136,6 +141,31 @@ def test_a_room_that_becomes_heavier_at_its_temperature_is_no_wrong_heater() -> 
     for one in updates:
         assert one.candidates[0].fault == "C"
         assert one.candidates[0].size == pytest.approx(0.4 * 9e4, rel=0.1)
+
+
+@pytest.mark.parametrize("rate", [3e-4, -3e-4])
+def test_a_thermometer_that_drifts_is_told_with_its_rate(rate: float) -> None:
+    """It adds C times its rate to the balance at once, and G times what it has come to."""
+    said = _room(off=lambda t: rate * np.maximum(t - 60_000.0, 0.0))
+    last = [v for v in said if v.event == "update"][-1]
+    assert (last.candidates[0].fault, last.candidates[0].unit) == ("T", "K/s")
+    assert last.candidates[0].size == pytest.approx(rate, rel=0.1)
+    assert last.candidates[0].probability > 0.9
+
+
+def test_a_drift_is_in_a_relation_with_its_rate_and_with_what_it_has_come_to() -> None:
+    """C r + G r t of a drift r t of the thermometer, behind the filter; an offset has no rate."""
+    room = Compilation(Source("room.bg", _ROOM), options=bondgraph.Options(rate=0.1))
+    engine, facts = room.engine(), room.diagnosis_model
+    found = hypotheses(engine, facts.faults, facts.units, {}, drifts=True)
+    assert [h.fault for h in found if h.kind == "drift"] == ["T"]
+    (drift,) = [h for h in found if h.kind == "drift"]
+    columns = {"P": 500.0, "To": 280.0, "T": 290.0}
+    samples = np.tile([columns[k.path] for k in engine.signals], (2000, 1))
+    slopes = Bank(engine.configured(bounds=False), [drift], facts.nominal).run(samples)[:, 0, 0]
+    (stages,), t = engine.stages, np.arange(1, 2001) / 0.1
+    late = t - stages / engine.bandwidth  # of a ramp behind so many equal stages
+    assert np.abs(slopes[500:]) == pytest.approx((9e4 + 55.0 * late)[500:], rel=1e-3)
 
 
 def test_a_fault_is_dated_within_the_time_that_the_filter_takes() -> None:
