@@ -332,8 +332,8 @@ class Diagnosis:
         fired = self._detection.fired
         mean = self._limits[:, 4]
         count = samples_before(engine, samples, mean, self._history, last.slopes, noise, fired)
-        # what is read late may have gone wrong before it showed
-        # and what a machine does that was so for long is known once its filters have settled
+        # what is read late may have gone wrong before it showed; and what a machine would do that
+        # has always been wrong is known once its filters have settled
         late = self._engine.lags[-1] + self._engine.warm_up
         late = math.ceil(late / self._engine.sample_time)
         first = begin

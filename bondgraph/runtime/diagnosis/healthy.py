@@ -47,8 +47,8 @@ class DiagnosisModel(NamedTuple):
     `switches` that may be stuck, by the name of the fault. `accepted` are faults that the machine
     is known to have, with the kind of their hypothesis and the deviation of what is known: what is
     nominal is so with them. `dynamic` are the parameters that are multiplied with what changes, as
-    those of storages are: see `Hypothesis`. `doubles` tells which two faults at once
-    could look like a third one, when it is asked.
+    those of storages are: `SinceOnset` tries these in two ways. `doubles` tells which two faults at
+    once could look like a third one, when it is asked.
     """
 
     faults: Mapping[str, float | None]

@@ -137,7 +137,9 @@ class Judge:
         self._next = _JUDGE
         self._best, self._two = None, OneOrTwo()
         sizes = self._sizes.found()
-        found = hypotheses(self._engine, model.faults, model.units, sizes, model.switches, True)
+        found = hypotheses(
+            self._engine, model.faults, model.units, sizes, model.switches, drifts=True
+        )
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
         found = sized(engine, found, model.deliveries, model.nominal, samples)
         machine = as_it_is(tolerated, model.nominal, history)
