@@ -17,6 +17,7 @@ from bondgraph.cli.options import (
     sample_rate,
     seconds,
 )
+from bondgraph.ir.residual_limit import NEVER
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 from bondgraph.text.whole_file import write_whole
@@ -233,7 +234,8 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
     limits: list[tuple[str, ...]] = [("residual", "noise", "fires above", "sums above")]
     for name, x in best.tuning.limits.items():
         level = f"a + {x.kappa * x.sigma:.3g}"
-        limits.append((name, f"{x.sigma:.3g}", level, f"{x.height:.1f} sigma"))
+        sums = f"{x.height:.1f} sigma" if x.height < NEVER.height else "never: it adds up noise"
+        limits.append((name, f"{x.sigma:.3g}", level, sums))
     rows: list[tuple[str, ...]] = [("fault", "change", "", "after", "in")]
     hidden = []
     for shown in best.shown:

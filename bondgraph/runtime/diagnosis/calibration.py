@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from bondgraph.ir.residual_limit import ShownSize
+from bondgraph.ir.residual_limit import NEVER, ShownSize
 from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, slack, tolerated
@@ -21,10 +21,11 @@ from bondgraph.runtime.diagnosis.hypotheses import (
     rows_apart,
     sized,
 )
-from bondgraph.runtime.diagnosis.noise import noise, uncovered
+from bondgraph.runtime.diagnosis.noise import CAREFUL, noise, stepped, uncovered
 from bondgraph.runtime.diagnosis.row_averages import lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, steady, weight
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
+from bondgraph.runtime.diagnosis.wander import wander
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
@@ -153,6 +154,28 @@ class _Work:
         self.tolerated, self.spread = tolerated(self.all, model)
         self.every = rows_apart(engine)
         self.least = _ACCURACY * self._terms(longest)
+        self.drifts = np.array([model.natures[name].drifts for name in engine.residuals])
+        own = [self._walk(log) for log in logs]
+        #: Of residuals that add up readings, how far they go in a row and what noise is beside.
+        self.walk, self.beside = np.max([np.zeros((2, len(self.drifts))), *own], axis=0)
+
+    def _walk(self, samples: Array) -> Array:
+        """How far residuals that add up readings walk in a row, and their noise; (2, residuals)."""
+        found = np.zeros((2, len(self.drifts)))
+        if not self.drifts.any():
+            return found
+        own = self.engine.configured(bounds=False)
+        parts = [own.run(part) for part in self._parts(samples)]
+        for k in np.flatnonzero(self.drifts).tolist():
+            values = np.concatenate([np.where(p.valid[:, k], p.value[:, k], np.nan) for p in parts])
+            rows = values[self.every - 1 :: self.every]
+            found[:, k] = wander(rows).most, CAREFUL * stepped(rows)
+        return found
+
+    def _parts(self, samples: Array) -> Iterator[Array]:
+        step = self.every * max(1, _CHUNK // self.every)
+        for k in range(0, len(samples), step):
+            yield samples[k : k + step]
 
     def _terms(self, samples: Array) -> Array:
         """How much signals move each residual at most; counts are exact, however far they are."""
@@ -219,9 +242,8 @@ class _Work:
         """Residuals, slopes of what is tolerated, and doubt, some thousand samples at a time."""
         whole = _Whole(self)
         whole.run(before)
-        step = self.every * max(1, _CHUNK // self.every)
-        for k in range(0, len(samples), step):
-            yield whole.run(samples[k : k + step])
+        for part in self._parts(samples):
+            yield whole.run(part)
 
     def windows(
         self, samples: Array, known: Mapping[str, Limit], window: float, rigid: Array
@@ -272,14 +294,12 @@ class _Whole:
         self.engine = work.engine.configured()
         self._bank = Bank(work.engine.configured(bounds=False), work.tolerated, work.nominal)
         self._doubt, self._tolerated = Doubt(work.engine, work.model), work.tolerated
-        self._age = 0
+        self._walk, self._age = work.walk, 0
 
     def run(self, samples: Array) -> tuple[Batch, Array, Array]:
         """Go on with further samples."""
         batch, slopes = self.engine.run(samples), self._bank.run(samples)
-        doubt, valid = self._doubt.run(
-            samples, batch, self._age, np.zeros(len(self.engine.residuals))
-        )
+        doubt, valid = self._doubt.run(samples, batch, self._age, self._walk)
         bound = batch.bound + slack(self._tolerated, slopes) + doubt
         self._age += len(samples)
         return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes, doubt
@@ -323,6 +343,12 @@ def _limits(
         least = float(work.least[k])
         sigma = max(own.foreseen(asked), float(tail[k]), least)
         top, bottom = excess[:, k].tolist()
+        if work.drifts[k]:  # no sum of a walk tells anything
+            sigma = max(float(work.beside[k]), least)
+            level = max(asked, _ABOVE * max(top, bottom) / sigma)
+            limit = Limit(sigma, rate, level, NEVER.height, walk=float(work.walk[k]))
+            found[engine.residuals[k]] = limit
+            continue
         level = max(asked, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
         # what a single sample reached says nothing of the noise of averages
         mean = lasting(averages[:, k], 0.0, stands[k], asked)

@@ -35,7 +35,7 @@ class Cusum:
     stretch s is seen in the peaks between two zeros (Pickands, 1975: an excess over a level is
     exponential). Heights are s times what they are for normal rows then, and above every peak.
 
-    `limits` have the columns of `Limit`, (residuals, 12). A sum climbs no higher than twice its
+    `limits` have the columns of `Limit`, (residuals, 13). A sum climbs no higher than twice its
     height, so that an alarm ends soon; of a machine that is known to be `healthy` as high as it is.
     """
 
@@ -108,7 +108,7 @@ class Cusum:
         if row.average is not None:
             known = row.average.valid & (limits[:, 6] > 0.0)
             own = np.where(known, [row.average.value - limits[:, 7], row.bound], math.nan)
-        weights = limits[:, None, 8:].T
+        weights = limits[:, None, 8 : 8 + LAGS].T
         value, bound = own + np.where(weights > 0.0, weights * self._before, 0.0).sum(axis=0)
         self._before = np.concatenate([own[None], self._before[:-1]])
         self.excess = np.sign(value) * np.maximum(np.abs(value) - bound, 0.0) / limits[:, 6]

@@ -64,7 +64,7 @@ class Diagnosis:
         self._history = History(spread)
         used = np.array([name in model.sees for name in engine.residuals], dtype=bool)
         self._status = WatchStatus(engine, used)
-        self._doubt = Doubt(engine, model, walks=tuning is None)
+        self._doubt = Doubt(engine, model)
         self._origins = Origins(engine, model.memories, self._every)
         self._past: deque[Row] = deque(maxlen=int(_MEMORY))
         self._levels = Levels(len(used))
@@ -153,7 +153,7 @@ class Diagnosis:
             self._origins.take(time[own], samples[own], self._past, again)
             slopes = self._bank.run(samples[own])
             given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
-            doubt, sound = self._doubt.run(samples[own], given, number, self._limits[:, 0])
+            doubt, sound = self._doubt.run(samples[own], given, number, self._limits[:, 12])
             value, valid, bound = self._origins.judged(given, self._bank, slopes)
             valid = valid & sound
             value = np.where(valid, value - self._limits[:, 4], 0.0)

@@ -14,7 +14,10 @@ from bondgraph.runtime.monitoring.engine import Batch, Engine
 
 _FASTER = 2.0  # times the bandwidth, of the filter that an approximation is held against
 _BIAS = 2.0  # times what that filter is off by: a bias falls with its square, noise is left over
-_DRIFT = 1.5  # times the noise of a row, which is learned with care, and the root of their number
+#: Times how far a walk goes in a row, and the root of their number. A walk over the root of time is
+#: a process of Ornstein and Uhlenbeck in the logarithm of time: it leaves c deviations c phi(c)
+#: times while time becomes e times as long, which is 0.0005 times with this one.
+_WALK = 4.0
 
 
 class Doubt:
@@ -29,15 +32,13 @@ class Doubt:
     - What adds up readings for ever adds up their noise, which walks away with the root of time.
     """
 
-    def __init__(self, engine: Engine, model: DiagnosisModel, walks: bool = False) -> None:
-        """Sums walk away where `walks`; limits of a tuning know how far they come."""
-        self._engine, self._walks = engine, walks
+    def __init__(self, engine: Engine, model: DiagnosisModel) -> None:
+        self._engine = engine
         self._every = rows_apart(engine)
         natures = [model.natures[name] for name in engine.residuals]
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = sorted({place[m] for n in natures for m in n.modes})
         self._bent = [(k, n.stages) for k, n in enumerate(natures) if n.approximate]
-        self._drifts = np.array([n.drifts for n in natures], dtype=bool)
         self.reset()
 
     def reset(self) -> None:
@@ -53,22 +54,21 @@ class Doubt:
         self._age = 0
 
     def run(
-        self, samples: Array, batch: Batch, number: int, noise: Array
+        self, samples: Array, batch: Batch, number: int, walk: Array
     ) -> tuple[Array, Mask]:
         """By how much each residual is in doubt, and which have a value; both (n, residuals).
 
         `batch` are the residuals of the samples, of which `number` counts the first one from the
-        start of time. `noise` is the deviation of each residual from row to row.
+        start of time. `walk` is how far what a residual adds up goes in a row, a deviation.
         """
         doubt, valid = np.zeros_like(batch.value), batch.valid.copy()
         if self._late is not None:
             self._turned(self._late, samples, batch, doubt, valid)
         if self._fast is not None:
             doubt += self._bias(self._fast, samples, batch, valid, number)
-        if self._walks and self._drifts.any():
+        if walk.any():
             rows = (self._age + 1 + np.arange(len(samples))) / self._every
-            own = np.where(self._drifts & np.isfinite(noise), noise, 0.0)
-            doubt += _DRIFT * own * np.sqrt(rows)[:, None]
+            doubt += _WALK * walk * np.sqrt(rows)[:, None]
         self._age += len(samples)
         return doubt, valid
 

@@ -12,7 +12,7 @@ import numpy as np
 from bondgraph.runtime.diagnosis.driving import Driving
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
-from bondgraph.runtime.diagnosis.noise import Noise, noise, uncovered, within
+from bondgraph.runtime.diagnosis.noise import CAREFUL, Noise, noise, stepped, uncovered, within
 from bondgraph.runtime.diagnosis.row_averages import lasting
 from bondgraph.runtime.diagnosis.rows import Part, Row, variances
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
@@ -28,10 +28,8 @@ _MOST = 512  # rows, after which it stays as it is
 LATE = 5  # rows before an alarm that may have been faulty already
 _ACCURACY = 1e-4  # of the terms of a residual: no sensor and no sampled law is better
 _ABOVE = 1.2  # times the largest excess of what is healthy that a limit stays above
-_CAREFUL = 2.0  # times the deviation that steps show, where they are no noise
 _BIASED = 2.0  # the same, where it is no noise and may become more
 _HOPELESS = 1.2  # times what noise may do: an approximation that is that far off tells nothing
-_NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
 _MANY = 4 * FIRST  # rows after which switches that are turned all the time are known
 _OFF = 4.0  # deviations of a mean that is surely not zero
 _TESTS = 4  # of each residual: samples, sums of rows and of averages, how loud rows are
@@ -93,7 +91,8 @@ class Learning:
         reading = np.array(reads, dtype=bool).reshape(len(paths), len(used))
         self._driving = Driving([place[path] for path in paths], reading)
         self._approximate = np.array([n.approximate for n in natures], dtype=bool)
-        self._stays = self._approximate | np.array([n.drifts for n in natures], dtype=bool)
+        self._drifts = np.array([n.drifts for n in natures], dtype=bool)
+        self._stays = self._approximate | self._drifts
         self._centred = centred(model, engine.residuals)
         self.hopeless = np.zeros(len(used), dtype=bool)  # approximations that are too far off
         self.off = np.zeros(len(used), dtype=bool)  # residuals that are surely not zero in the mean
@@ -267,7 +266,7 @@ class Learning:
 
     def _weight(self, value: Array, bound: Array) -> Array:
         """One over what residuals may be off by, noise from what neighbouring rows differ by."""
-        sigma = np.array([_stepped(column) for column in value.T])
+        sigma = np.array([stepped(column) for column in value.T])
         sigma = np.maximum(sigma, _ACCURACY * self._scale)
         variance = variances(np.nan_to_num(value), bound, sigma)
         return np.where(variance > 0, 1.0 / np.sqrt(np.maximum(variance, 1e-300)), 0.0)
@@ -287,7 +286,7 @@ class Learning:
             return False
         found = noise(values, float(owed[k]), self._centred[k])
         kappa = float(self.limits[k, 2])
-        spread = _CAREFUL * _stepped(values) if self._stays[k] else found.foreseen(kappa)
+        spread = CAREFUL * stepped(values) if self._stays[k] else found.foreseen(kappa)
         least = max(spread, _ACCURACY * float(self._scale[k]))
         top, bottom = self._highest[:, k].tolist()
         highest = max(top - found.mean, bottom + found.mean, 0.0) / kappa
@@ -301,15 +300,18 @@ class Learning:
         self._learned[k] |= whole
         unknown, self._wanted[k] = bool(self._wanted[k]), False
         self.unsure[k] = False
-        self._due[k] = _MOST + 1 if self._stays[k] else math.ceil(_MORE * (self._counts[k] - held))
+        often = math.ceil(_MORE * (self._counts[k] - held))
+        self._due[k] = _MOST + 1 if self._approximate[k] else often
         deviation = found.sigma * math.sqrt(found.memory / found.rows)
         self.off[k] = abs(found.mean) > max(_OFF * deviation, found.sigma)
         self.limits[k, 0] = max(self._sigma[k].values())
         self.limits[k, 4:6] = found.mean, found.memory
+        if self._drifts[k]:
+            self.limits[k, 12] = wander(values).most
         if not (self._stays[k] or self._modes[k]):
             own = np.where(np.isfinite(values), average[:, k], math.nan)
             wider = self.limits[k, 0] / spread if spread > 0.0 else 1.0
-            self.limits[k, 6:] = self._averages(k, own, float(owed[k]), found.mean, wider)
+            self.limits[k, 6:12] = self._averages(k, own, float(owed[k]), found.mean, wider)
             self._walk(k, values, own, found)
         return unknown
 
@@ -349,13 +351,6 @@ class _Healthy(NamedTuple):
     average: Array
     tilt: Array
     settings: list[_Settings]
-
-
-def _stepped(values: Array) -> float:
-    """The deviation of white noise whose neighbours differ as these do, in the median."""
-    steps = np.abs(np.diff(values))
-    steps = steps[np.isfinite(steps)]
-    return _NORMAL * float(np.median(steps)) / math.sqrt(2.0) if len(steps) else 0.0
 
 
 def _settings(modes: Array) -> _Settings:

@@ -17,6 +17,8 @@ _FILTERED, _SQUARED = 2.0, 1.25
 _SLOW = 5  # rows in the mean of which noise is small
 COVERED = 0.1
 _FAR = 6.0 * 1.4826  # times the median distance from the median: six normal deviations
+_NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
+CAREFUL = 2.0  #: times the deviation that steps show, where they are no noise
 _LEAST = 5.0  # degrees of freedom, of however few rows
 
 
@@ -100,6 +102,13 @@ def within(values: Array) -> Mask:
             most = _FAR * float(np.median(off[found[:, k]]))
             found[:, k] &= off <= most if most > 0.0 else True
     return found
+
+
+def stepped(values: Array) -> float:
+    """The deviation of white noise whose neighbours differ as these do, in the median."""
+    steps = np.abs(np.diff(values))
+    steps = steps[np.isfinite(steps)]
+    return _NORMAL * float(np.median(steps)) / math.sqrt(2.0) if len(steps) else 0.0
 
 
 def uncovered(rest: Array, bound: Array) -> Array:

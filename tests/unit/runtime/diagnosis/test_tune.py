@@ -227,6 +227,50 @@ def test_sums_of_a_healthy_machine_count_however_high_they_are(begin: int) -> No
     said = watch.update(np.arange(_COUNT) * _STEP, own.run(log), log)
     assert [v for v in said if v.event == "warm-up"]
     assert not [v for v in said if v.event == "fault"]
+
+
+@pytest.mark.parametrize("tunes", [True, False])
+def test_what_adds_up_readings_walks_away(tunes: bool) -> None:
+    """F - K (q + c q^3) with q = int(v), of a spring that moves little: it walks by K times noise.
+
+    A walk adds up its steps by their squares: in a row of n samples of noise s it goes
+    K (1 + 3 c q^2) T s sqrt(n). The log is ten times as long as that of the tuning; at its end the
+    force is off by fifteen times what it has walked by then.
+    """
+    text = """bg 1
+    model Spring {
+        param K = 100 N/m
+        const c = 20 1/m^2
+        0:s { <- Sf:v; -> C:k(q0 = 0 m) { e = K*q*(1 + c*q^2) }; -> De:F }
+    }
+    """
+    made = Compilation(Source("m.bg", text), None, Options(rate=100.0))
+
+    def log(seed: int, count: int) -> np.ndarray:
+        draw, time = np.random.default_rng(seed), np.arange(count) * 0.01
+        place = 0.05 * np.sin(2.0 * time)
+        speed = 0.1 * np.cos(2.0 * time) + draw.normal(0.0, 0.01, count)
+        force = 100.0 * place * (1.0 + 20.0 * place**2)
+        return np.column_stack([speed, force + draw.normal(0.0, 0.005, count)])
+
+    engine = made.engine(native=False)
+    assert [k.path for k in engine.signals] == ["v", "F"]
+    tuning = None
+    if tunes:
+        logs = [log(1, 20_000)]
+        tuning = tune(engine, made.diagnosis_model, logs, made.program.digest, 1.0).tuning
+        steep = 100.0 * (1.0 + 60.0 * 0.05**2 / 2.0)
+        walk = steep * 0.01 * 0.01 * math.sqrt(rows_apart(engine))
+        assert tuning.limits["r1"].walk == pytest.approx(walk, rel=0.2)
+        made = made.tuned(tuning)
+    samples, time, begin = log(4, 200_000), np.arange(200_000) * 0.01, 198_000
+    samples[begin:, 1] += 15.0 * 0.13 * math.sqrt(begin / rows_apart(engine))
+    own = made.engine(native=False)
+    said = made.diagnosis(own, tuning).update(time, own.run(samples), samples)
+    fired = [v.time for v in said if v.event == "fault"]
+    assert fired and fired[0] == pytest.approx(time[begin], abs=2.0)
+
+
 def test_rows_are_those_of_a_watch_of_the_same_log() -> None:
     """What falls off within a row is another sum of rows that end elsewhere."""
     engine = model().engine(native=False).configured(bandwidth=100.0)
