@@ -234,7 +234,8 @@ class _Work:
         for k in range(self.every - 1, len(slopes), self.every):
             own = [x[k] for x in (*batch, doubt, slopes)]
             block = slice(k + 1 - self.every, k + 1)
-            mean = averaged(batch.value[block], batch.valid[block], slopes[block])
+            value, valid, bound = batch.value[block], batch.valid[block], batch.bound[block]
+            mean = averaged(value, valid, bound, doubt[block], slopes[block])
             row = Row(0.0, np.empty((0, len(self.engine.signals))), self.engine, *own)
             yield k, row._replace(average=mean)
 
@@ -313,12 +314,13 @@ def _beyond(batch: Batch) -> Array:
 
 def _averages(rows: Sequence[Row], found: Array) -> Array:
     """What is left of the averages of rows, (rows, residuals), NaN where one is not whole."""
-    left = []
+    left, bounds = [], []
     for row in rows:
         assert row.average is not None
-        value, valid, slopes = row.average
+        value, valid, bound, _, slopes = row.average
         left.append(np.where(valid, value - found @ slopes, np.nan))
-    return uncovered(np.array(left), np.array([row.bound for row in rows]))
+        bounds.append(bound)
+    return uncovered(np.array(left), np.array(bounds))
 
 
 def _limits(

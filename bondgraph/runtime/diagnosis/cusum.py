@@ -107,7 +107,8 @@ class Cusum:
         own = none
         if row.average is not None:
             known = row.average.valid & (limits[:, 6] > 0.0)
-            own = np.where(known, [row.average.value - limits[:, 7], row.bound], math.nan)
+            value, bound = row.average.value - limits[:, 7], row.average.bound
+            own = np.where(known, [value, bound], math.nan)
         weights = limits[:, None, 8 : 8 + LAGS].T
         value, bound = own + np.where(weights > 0.0, weights * self._before, 0.0).sum(axis=0)
         self._before = np.concatenate([own[None], self._before[:-1]])

@@ -164,7 +164,7 @@ class Diagnosis:
     def _row(self, part: Part, out: list[Verdict]) -> Row | None:
         """Add samples to the row; the row, when it is full."""
         self._piece.append(part.samples.copy())
-        self._averages.append((len(part.time), averaged(part.value, part.valid, part.slopes)))
+        self._averages.append((len(part.time), averaged(*part[2:])))
         if not self._ends:
             return None
         whole = np.concatenate(self._piece)

@@ -26,6 +26,8 @@ class Doubt:
     - A switch turns between two samples: the residual may be off by as much as it makes to turn
       one sample later. Where filtered derivatives stand behind a switch they are of both its
       positions until the filter has settled, and the residual has no meaning.
+    - A converter holds a command until the next one, so that it acts half a sample later than
+      what moves in straight lines from sample to sample: as much as that makes is in doubt.
     - A nonlinear law of filtered derivatives is off by what the filter does to the signals. With
       half the time constants that is a quarter; held against that, by a filter that makes both
       equally late, it shows how much it is, while a fault makes no difference.
@@ -38,6 +40,7 @@ class Doubt:
         natures = [model.natures[name] for name in engine.residuals]
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = sorted({place[m] for n in natures for m in n.modes})
+        self._commands = [place[k.path] for k in engine.signals if k.kind == "input"]
         self._bent = [(k, n.stages) for k, n in enumerate(natures) if n.approximate]
         self.reset()
 
@@ -45,7 +48,8 @@ class Doubt:
         """The next sample is the first."""
         engine = self._engine
         count = len(engine.residuals)
-        self._late = engine.configured(bounds=False) if self._modes else None
+        late = bool(self._modes or self._commands)
+        self._late = engine.configured(bounds=False) if late else None
         faster = engine.bandwidth * _FASTER
         self._fast = engine.configured(bandwidth=faster, bounds=False) if self._bent else None
         self._smooth: list[Any] = [np.zeros((2 * n, 1)) for _, n in self._bent]
@@ -63,7 +67,7 @@ class Doubt:
         """
         doubt, valid = np.zeros_like(batch.value), batch.valid.copy()
         if self._late is not None:
-            self._turned(self._late, samples, batch, doubt, valid)
+            self._acted(self._late, samples, batch, doubt, valid)
         if self._fast is not None:
             doubt += self._bias(self._fast, samples, batch, valid, number)
         if walk.any():
@@ -72,7 +76,7 @@ class Doubt:
         self._age += len(samples)
         return doubt, valid
 
-    def _turned(
+    def _acted(
         self,
         late: Engine,
         samples: Array,
@@ -80,13 +84,14 @@ class Doubt:
         doubt: Array,
         valid: Mask,
     ) -> None:
-        """What it makes that switches may have turned a sample later."""
+        """What it makes that commands act half a sample later, and switches turn a whole one."""
         if not len(samples):
             return
         last = samples[0] if self._sample is None else self._sample
         before = np.vstack([last, samples[:-1]])
         told = samples.copy()
         told[:, self._modes] = before[:, self._modes]
+        told[:, self._commands] = 0.5 * (told + before)[:, self._commands]
         other = late.run(told)
         doubt += np.where(other.valid & valid, np.abs(batch.value - other.value), 0.0)
         self._sample = samples[-1].copy()

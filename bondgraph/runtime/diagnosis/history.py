@@ -104,11 +104,12 @@ class History:
         slopes = row.slopes if own is None else np.concatenate([row.slopes, own.slopes], axis=1)
         expected, variance = self.expected(slopes)
         sure = sure & np.isfinite(expected[:count]) & np.isfinite(variance[:count])
-        unknown = _UNKNOWN * np.sqrt(np.where(sure, variance[:count], 0.0))
-        bound = COVERED * (row.bound - row.doubt) + row.doubt + unknown
+        unknown = _UNKNOWN * np.sqrt(np.where(np.isfinite(variance), variance, 0.0))
+        bound = COVERED * (row.bound - row.doubt) + row.doubt + unknown[:count]
         if own is not None:
             less = np.where(sure & own.valid, expected[count:], 0.0)
-            own = own._replace(value=own.value - less)
+            most = COVERED * (own.bound - own.doubt) + own.doubt + unknown[count:]
+            own = own._replace(value=own.value - less, bound=np.where(sure, most, own.bound))
         return row._replace(
             value=np.where(sure, row.value - expected[:count], row.value),
             bound=np.where(sure, bound, row.bound),

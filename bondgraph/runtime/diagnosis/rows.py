@@ -29,10 +29,16 @@ class Part(NamedTuple):
 
 
 class Average(NamedTuple):
-    """Of all samples of a row: residuals, whether each sample has a value, and slopes."""
+    """Of all samples of a row: residuals, whether each sample has a value, thresholds, slopes.
+
+    An average is no farther off than the average of the thresholds: these come and go in a row, as
+    what a machine does and a step of a command do.
+    """
 
     value: Array
     valid: Mask
+    bound: Array
+    doubt: Array  # the part of it that no parameter explains
     slopes: Array
 
 
@@ -73,10 +79,11 @@ def to_row_ends(time: Array, sample_time: float, every: int) -> Iterator[slice]:
         start = stop
 
 
-def averaged(value: Array, valid: Mask, slopes: Array) -> Average:
+def averaged(value: Array, valid: Mask, bound: Array, doubt: Array, slopes: Array) -> Average:
     """Of samples, (n, residuals) and (n, parameters, residuals)."""
     sound: Mask = np.asarray(valid.all(axis=0))
-    return Average(np.where(sound, value.mean(axis=0), 0.0), sound, slopes.mean(axis=0))
+    whole = np.where(sound, value.mean(axis=0), 0.0)
+    return Average(whole, sound, *(x.mean(axis=0) for x in (bound, doubt, slopes)))
 
 
 def all_of(pieces: Sequence[tuple[int, Average]]) -> Average:
@@ -84,10 +91,10 @@ def all_of(pieces: Sequence[tuple[int, Average]]) -> Average:
     if len(pieces) == 1:
         return pieces[0][1]
     counts = np.array([count for count, _ in pieces]) / sum(count for count, _ in pieces)
-    value, valid, slopes = (np.stack(x) for x in zip(*[own for _, own in pieces], strict=True))
+    value, valid, *rest = (np.stack(x) for x in zip(*[own for _, own in pieces], strict=True))
     sound: Mask = np.asarray(valid.all(axis=0))
-    whole = np.einsum("n,nr->r", counts, value)
-    return Average(np.where(sound, whole, 0.0), sound, np.einsum("n,npr->pr", counts, slopes))
+    whole = np.where(sound, np.tensordot(counts, value, 1), 0.0)
+    return Average(whole, sound, *(np.tensordot(counts, x, 1) for x in rest))
 
 
 def steady(row: Row, weights: Array) -> tuple[Array, Array, Array]:
@@ -100,7 +107,7 @@ def steady(row: Row, weights: Array) -> tuple[Array, Array, Array]:
     """
     if row.average is None:
         return row.value, weights, row.slopes
-    value, sound, slopes = row.average
+    value, sound, *_, slopes = row.average
     return np.where(sound, value, row.value), weights, np.where(sound, slopes, row.slopes)
 
 

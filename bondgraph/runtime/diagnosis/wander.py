@@ -162,10 +162,10 @@ class Levels:
             return row
         own, noise = row.average, self._noise**2 / self._rows
         unknown = np.sqrt(np.maximum(self._variance - noise, 0.0))
+        more = _UNKNOWN * unknown
         if own is not None:
-            own = own._replace(value=own.value - self._level)
-        bound = row.bound + _UNKNOWN * unknown
-        return row._replace(value=row.value - self._level, bound=bound, average=own)
+            own = own._replace(value=own.value - self._level, bound=own.bound + more)
+        return row._replace(value=row.value - self._level, bound=row.bound + more, average=own)
 
     def state(self) -> list[Any]:
         """All that `resume` needs, as plain JSON."""

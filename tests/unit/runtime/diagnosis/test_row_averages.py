@@ -74,7 +74,7 @@ def _limits(rows: Array, averages: Array) -> Array:
 
 def _row(value: float, average: float, bound: float = 0.0) -> Row:
     none, valid = np.zeros(1), np.ones(1, dtype=bool)
-    own = Average(np.array([average]), valid, np.zeros((0, 1)))
+    own = Average(np.array([average]), valid, np.array([bound]), np.zeros(1), np.zeros((0, 1)))
     first = Row(0.0, none, None, np.array([value]), valid, np.array([bound]), none, none)
     return first._replace(average=own)
 
@@ -145,10 +145,15 @@ def test_pieces_of_a_row_have_its_average() -> None:
     value, slopes = draw.standard_normal((9, 2)), draw.standard_normal((9, 3, 2))
     valid = np.ones((9, 2), dtype=bool)
     valid[7, 1] = False
-    whole = averaged(value, valid, slopes)
+    bound, doubt = draw.random((9, 2)), draw.random((9, 2))
+    whole = averaged(value, valid, bound, doubt, slopes)
     cuts = (slice(0, 2), slice(2, 3), slice(3, 9))
-    joined = all_of([(len(value[c]), averaged(value[c], valid[c], slopes[c])) for c in cuts])
+    every = value, valid, bound, doubt, slopes
+    joined = all_of([(len(value[c]), averaged(*(x[c] for x in every))) for c in cuts])
     assert whole.valid.tolist() == joined.valid.tolist() == [True, False]
     assert joined.value == pytest.approx(whole.value)
     assert joined.slopes == pytest.approx(whole.slopes)
-    assert len(Limit._fields) - 8 == LAGS
+    assert joined.bound == pytest.approx(bound.mean(axis=0))
+    assert joined.doubt == pytest.approx(doubt.mean(axis=0))
+    assert len([name for name in Limit._fields if name.startswith("before")]) == LAGS
+    assert Limit._fields.index("before1") == 8
