@@ -187,11 +187,13 @@ model M {
     assert [k.path for k in engine.signals] == ["U", "V", "i", "j"]
     draw = np.random.default_rng(7)
     log = draw.normal(0.0, 1e-5, (_COUNT, 4)) + [_R * _I, 0.0, _I, 1.0]
-    log[0, 0] += 10.0
+    log[:, 0] = _R * _I  # steps of a command, as of its noise, widen a threshold
+    log[0, 2] += 5.0
     batch = engine.configured().run(log)
     first = np.argmax(batch.valid, axis=0)
     assert first[0] < first[1] == round(engine.warm_up / _STEP)
-    jump, none = 10.0 * np.eye(_COUNT, 4)[:, :1] * np.eye(1, 4), np.zeros((1, 4))
+    jump, none = np.zeros((_COUNT, 4)), np.zeros((1, 4))
+    jump[0, 2] = 5.0
     limit, usual = (
         tune(engine, made.diagnosis_model, [log - less], "digest", 2.0, _WINDOW).tuning.limits["r1"]
         for less in (none, jump)
