@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 _FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
 _FASTEST = 0.4  # of the rate, rad: no filter has fewer samples to work with
+_MORE = 1.2  # times the change that shows, above which that without a jump is told beside it
 _LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
 WINDOW = 40.0  # time constants of the default filter in which a fault has to show
 
@@ -201,6 +202,7 @@ def _result(compilation: Compilation, best: Tuned, found: list[Tuned]) -> dict[s
                 "change": s.size,
                 "unit": s.hypothesis.unit,
                 "relative": _relative(compilation, s),
+                "smooth": s.smooth,
                 "delay": s.delay,
                 "residual": s.residual or None,
             }
@@ -264,5 +266,13 @@ def _row(compilation: Compilation, shown: Shown) -> tuple[str, ...] | None:
     share = "" if relative is None else f"{100 * relative:.3g} %"
     gain = shown.hypothesis.kind == "gain"
     size = "" if gain else f"{shown.size:.3g} {shown.hypothesis.unit}".rstrip()
-    note = "  more than the value itself" if relative is not None and relative > 1 else ""
+    note = ""
+    if relative is not None and relative > 1:
+        note = "  more than the value itself"
+    elif shown.smooth is None:
+        note = "  never if nothing jumps"
+    elif shown.smooth > _MORE * shown.size:
+        other = _relative(compilation, shown._replace(size=shown.smooth))
+        plain = f"{shown.smooth:.3g} {shown.hypothesis.unit}"
+        note = f"  {plain if other is None else f'{100 * other:.3g} %'} if nothing jumps"
     return _name(shown), size, share, f"{shown.delay:.2f} s", shown.residual + note

@@ -45,13 +45,16 @@ class Shown(NamedTuple):
     """What can be seen of one hypothesis: the smallest change that is sure to show.
 
     `size` in the unit of the hypothesis (None: nothing moves), in nine windows of ten; `delay` is
-    the median time in s until it shows. `residual` is the one that shows it first most often.
+    the median time in s until it shows. `residual` is the one that shows it first most often. A
+    storage that becomes another one keeps what it holds, and what is measured of it jumps; where
+    nothing jumps, as of what comes on slowly, it takes a change of `smooth`.
     """
 
     hypothesis: Hypothesis
     size: float | None
     delay: float | None
     residual: str
+    smooth: float | None = None
 
 
 class Tuned(NamedTuple):
@@ -98,18 +101,20 @@ def tune(
     tuning = Tuning(
         digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, found, bounds
     )
-    sizes: list[list[_Seen]] = [[] for _ in work.all]
+    sizes: list[list[_Seen]] = [[] for _ in work.ways]
     rigid = np.array([bounds[name] for name in engine.residuals])
     for k, log in enumerate(logs):
         for seen in work.windows(log, found, window, rigid):
             for all_, one in zip(sizes, seen, strict=True):
                 all_.append(one)
         progress((len(logs) + k + 1) / total)
-    shown = tuple(
-        _shown(h, found, engine.residuals) for h, found in zip(work.all, sizes, strict=True)
-    )
-    by_fault = _by_fault(work.all, sizes, engine.residuals)
-    return Tuned(tuning._replace(shows=by_fault, window=window), shown, window)
+    by_fault = _by_fault([work.all[k] for k, _ in work.ways], sizes, engine.residuals)
+    every = [_shown(work.all[k], own, engine.residuals)
+             for (k, _), own in zip(work.ways, sizes, strict=True)]  # fmt: skip
+    count = len(work.all)
+    smooth = {k: one.size for (k, _), one in zip(work.ways[count:], every[count:], strict=True)}
+    shown = [one._replace(smooth=smooth.get(k, one.size)) for k, one in enumerate(every[:count])]
+    return Tuned(tuning._replace(shows=by_fault, window=window), tuple(shown), window)
 
 
 class _Noise(NamedTuple):
@@ -151,6 +156,9 @@ class _Work:
         found = hypotheses(engine, model.faults, model.units, sizes.found())
         longest = max(logs, key=len, default=np.empty((0, len(engine.signals))))[:_CHUNK]
         self.all = sized(engine, found, model.deliveries, self.nominal, longest)
+        #: Numbers of hypotheses, each as what may jump; behind them those that need not.
+        self.ways = [(k, False) for k in range(len(self.all))]
+        self.ways += [(k, True) for k, h in enumerate(self.all) if h.fault in model.dynamic]
         self.tolerated, self.spread = tolerated(self.all, model)
         self.every = rows_apart(engine)
         self.least = _ACCURACY * self._terms(longest)
@@ -257,6 +265,8 @@ class _Work:
         engine = whole.engine
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
         length = max(2, round(window / self.engine.sample_time))
+        lasting = [self.all[k] for k, smooth in self.ways if smooth]
+        behind = self.engine.configured(bounds=False)  # where it was a warm-up ago
         own = limits(known, engine.residuals)
         top = np.array([limit.kappa * limit.sigma for limit in own])
         whole.run(samples[:start])
@@ -264,8 +274,14 @@ class _Work:
             part = samples[begin : begin + length]
             bank = Bank(copied(engine), self.all, self.nominal, samples[begin - 1])
             slopes = np.abs(bank.run(part))
+            if lasting:
+                past = Bank(copied(behind), lasting, self.nominal)
+                past.onset(past.run(samples[begin - start : begin], [start - 1])[0])
+                slopes = np.concatenate([slopes, np.abs(past.run(part))], axis=1)
+                behind.run(samples[begin - start : begin - start + length])
             batch, _, _ = whole.run(part)
-            yield [self._seen(h, slopes[:, k], batch, top, rigid) for k, h in enumerate(self.all)]
+            yield [self._seen(self.all[k], slopes[:, at], batch, top, rigid)
+                   for at, (k, _) in enumerate(self.ways)]  # fmt: skip
 
     def _seen(
         self, hypothesis: Hypothesis, slopes: Array, batch: Batch, top: Array, rigid: Array

@@ -149,6 +149,36 @@ model M {
     assert set(known.shows[by_fault["U"]]) == {"R", "U", "i"}
 
 
+def test_a_storage_that_changes_without_a_jump_shows_by_what_flows_into_it() -> None:
+    """i - C D(v) with v on a ramp of s: a change d makes d s, once the filter has settled.
+
+    Where the charge stays v jumps by v d/C, of which the filter shows the derivative at once.
+    """
+    text = """bg 1
+    model Charged {
+        param C = 1 F
+        0:n { <- Sf:i; -> C:c = C; -> De:v }
+    }
+    """
+    made = Compilation(Source("m.bg", text), None, Options(rate=1.0 / _STEP))
+    engine = made.engine(native=False)
+    assert [k.path for k in engine.signals] == ["i", "v"]
+    slope, window, count = 0.5, 1.0, 20_000
+    volts = 5.0 + slope * np.arange(count) * _STEP
+    noise = np.random.default_rng(8).normal(0.0, 1e-3, count)
+    log = np.column_stack([slope + noise, volts])
+    found = tune(engine, made.diagnosis_model, [log], "digest", 1.0, window)
+    (own,) = [one for one in found.shown if one.hypothesis.fault == "C"]
+    limit = found.tuning.limits["r1"]
+    assert own.size is not None and own.smooth is not None
+    assert own.smooth == pytest.approx(limit.kappa * limit.sigma / slope, rel=0.03)
+    # v d/C behind p/(1 + p/b)^2 is at most v d b/e, at 1/b; v is that of the worst window of ten
+    assert made.diagnosis_model.natures["r1"].stages == 2
+    top = float(np.quantile(volts, 0.1)) * engine.bandwidth / math.e
+    assert own.size == pytest.approx(limit.kappa * limit.sigma / top, rel=0.1)
+    assert own.size < 0.1 * own.smooth
+
+
 def test_a_way_that_does_not_move_a_residual_is_not_ruled_out_by_its_silence() -> None:
     """A sensor's offset moves both residuals, its gain the first only, a reading of zero none."""
     ways = [Hypothesis("i", kind, "A", 1.0, False) for kind in ("offset", "gain", "drift")]
