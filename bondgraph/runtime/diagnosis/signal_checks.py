@@ -115,6 +115,8 @@ class SignalChecks:
         """The samples begin anew."""
         self._last = np.empty((0, len(self._names)))
         self._run = np.zeros(len(self._names))
+        #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
+        self._loud = np.zeros((_AFTER, 2, len(self._names)), dtype=np.bool_)
         self._encoders.restart()
 
     def row(
@@ -122,16 +124,17 @@ class SignalChecks:
     ) -> list[Unusual]:
         """What begins to be unusual in a row, (n, all signals), that ends at a time (s).
 
-        An encoder is told of if it is one of the `suspects`, as machines stand still as well.
+        An encoder is told of if it is one of the `suspects`, as machines stand still as well. So is
+        noise that is small beside the range of its signal, if no other signal is louder than ever.
         """
-        found, driven = self._alone(time, samples, healthy)
+        found, driven = self._alone(time, samples, healthy, suspects)
         for name, one in self._encoders.row(samples, healthy, suspects).items():
             since = time - (one.samples - 1) * self._step
             found[name] = Unusual(name, "stuck", since, float(one.samples), 0.0, one.other)
         return self._begun(found, driven)
 
     def _alone(
-        self, time: float, samples: Array, healthy: bool
+        self, time: float, samples: Array, healthy: bool, suspects: Collection[str]
     ) -> tuple[dict[str, Unusual], Container[str]]:
         """What signals show each by itself, and inputs that move as never before."""
         own = np.where(np.isfinite(samples), samples, math.nan)[:, self._at]
@@ -148,7 +151,7 @@ class SignalChecks:
         top = np.fmax(self._range[1], own.max(axis=0))
         bottom = np.fmin(self._range[0], own.min(axis=0))
         span = top - bottom
-        sizes = self._unusual(far, rough, moved, runs, span)
+        sizes = self._unusual(far, rough, moved, runs, span, self._matters(rough, suspects))
         ends = (own[-1] >= top) | (own[-1] <= bottom)
         sizes["stuck"][0][ends & self._drive] = False  # a command at the end of what it can do
         for kind, (out, now, before) in sizes.items():
@@ -185,16 +188,36 @@ class SignalChecks:
         fresh = self._away.get(name, _PAUSE) < _AFTER
         return name in self.active or fresh or name in self._encoders.stood
 
+    def _matters(self, rough: Array, suspects: Collection[str]) -> Array:
+        """The least roughness that is told, in shares of the range of each signal.
+
+        What is told goes on until it is half as much. Where residuals are in alarm small noise is
+        what they see, unless several signals have had it lately: then it is of the machine.
+        """
+        least = np.full(len(self._names), _FLOOR)
+        told = [n for n, one in self.active.items() if one.kind == "burst"]
+        for name in told:
+            least[self._names.index(name)] = 0.0 if name in suspects else _FLOOR / 2.0
+        louder = np.stack([rough > self._rough[0], rough > self._louder() * self._rough[0]])
+        self._loud = np.concatenate([self._loud[1:], louder[None]])
+        some, often = self._loud.sum(axis=0)
+        if np.count_nonzero(some) == 1 and self._names[k := int(some.argmax())] in suspects:
+            least[k] = 0.0 if often[k] >= _QUIET else least[k]
+        return least
+
+    def _louder(self) -> Array:
+        """Times the roughness of any healthy row, above which it is unusual."""
+        return np.where(self._rows >= _MANY, _OUT, 1.5 * _OUT)
+
     def _unusual(
-        self, far: Array, rough: Array, moved: Array, runs: Array, span: Array
+        self, far: Array, rough: Array, moved: Array, runs: Array, span: Array, least: Array
     ) -> dict[str, tuple[Mask, Array, Array]]:
         """Of each kind: which signals are unusual, how far out each is now, and was at most."""
         with np.errstate(divide="ignore", invalid="ignore"):
             floor = _FLOOR * np.maximum(span, 1e-300)
             spike = far[0] > np.maximum(_OUT * self._far[0], floor)
             spike &= far[0] > _ALONE * far[2]
-            out = np.where(self._rows >= _MANY, _OUT, 1.5 * _OUT)
-            burst = rough > np.maximum(out * self._rough[0], floor)
+            burst = rough > np.maximum(self._louder() * self._rough[0], least * span)
             beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
             burst &= beside > np.minimum(_ROUGHER * self._rough[1], _WHITE)
             longest = np.maximum(_STILL * self._still, _LEAST)

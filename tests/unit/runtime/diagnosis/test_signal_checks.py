@@ -88,6 +88,33 @@ def test_a_burst_is_told_once_and_ends(column: int, name: str, size: float) -> N
     assert one.since == pytest.approx(2000 * _STEP, abs=2 * _ROW * _STEP)
 
 
+@pytest.mark.parametrize(
+    ("suspects", "other", "told"),
+    [((), False, []), (("q", "T"), False, ["q"]), (("T",), False, []), (("q", "T"), True, [])],
+)
+def test_noise_that_is_small_beside_the_range_is_told_where_residuals_see_it(
+    suspects: tuple[str, ...], other: bool, told: list[str]
+) -> None:
+    """Four times as loud is 1 % of the range of q; it is the machine if T is louder too."""
+    draw = np.random.default_rng(6)
+    k, start = np.arange(6000), 5000
+    samples = np.column_stack([
+        np.sin(k / 300.0) + 0.005 * draw.normal(size=6000),
+        2.0 * np.sin(k / 200.0) + 0.01 * draw.normal(size=6000),
+        300.0 + 2.0 * np.sin(k / 250.0) + 0.01 * draw.normal(size=6000),
+    ])  # fmt: skip
+    samples[start:, 1] += 0.04 * draw.normal(size=1000)
+    if other:
+        samples[start:, 2] += 0.03 * draw.normal(size=1000)
+    checks = SignalChecks(["y", "q", "T"], [0, 1, 2], _STEP)
+    found = []
+    for at in range(0, 6000 - _ROW + 1, _ROW):
+        healthy, time = at < start, (at + _ROW - 1) * _STEP
+        found += checks.row(time, samples[at : at + _ROW], healthy, () if healthy else suspects)
+    assert {one.signal for one in found} == set(told)
+    assert all(time <= 5500 * _STEP for time in [one.since for one in found[:1]])
+
+
 @pytest.mark.parametrize(("column", "name"), [(0, "y"), (1, "q"), (2, "T")])
 def test_a_signal_that_stands_still_is_told(column: int, name: str) -> None:
     samples = _signals(6)
