@@ -245,6 +245,9 @@ def _fits(left: Left, offset: bool) -> list[str]:
     """What is left of one residual, in words; an `offset` may be what is wrong."""
     if not left.after and not left.before:
         return [f"{left.residual}: {'zero' if left.rows else 'never valid'} in these logs"]
+    if left.nothing:
+        share = f"{100 * left.after / left.term:.1g} % of its largest term"
+        return [f"{left.residual}: what is left is {share}, as of samples without noise"]
     text = f"{left.residual}: {100 * left.explained:.1f} % of it at the nominal values is explained"
     text += f"; what is left is {left.times:.2g} times the noise of the sensors"
     if left.wrong and left.follows is not None:

@@ -52,6 +52,7 @@ _MOST = 0.5  # share of what is known of a parameter that may be left out with s
 _WRONG = 2.0  # of its noise: with more left of it a residual says that something else is there
 _FOLLOWS = 0.2  # share that follows the inputs, above which that is another law
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
+_SAMPLED = 1e-4  # of the largest term: no sampled law is better
 _SPANS = 20  # of the log, each of which is asked whether it fits
 
 
@@ -90,7 +91,7 @@ class Left(NamedTuple):
     the fitted parameters; `noise` what the sensors make of it. `memory` is the correlation of one
     row of it with the next once that of the noise is taken off: 0 where nothing else is in it.
     `follows` is the share of its mean square that functions of the inputs explain (`left_over`),
-    None where that cannot be told.
+    None where that cannot be told. `term` is the root mean square of the largest of its terms.
     """
 
     residual: str
@@ -101,6 +102,12 @@ class Left(NamedTuple):
     memory: float
     follows: float | None
     spans: tuple[Span, ...]
+    term: float
+
+    @property
+    def nothing(self) -> bool:
+        """Whether it is no more than samples of signals in motion are off by, without any noise."""
+        return self.after <= _SAMPLED * self.term
 
     @property
     def explained(self) -> float:
@@ -634,6 +641,7 @@ class _Problem:
         """What is left of every residual at a point, beside what there was."""
         clean, added = self._rows([np.zeros(len(at)), at])
         before, after, noise = rms(clean[0]), rms(clean[1]), rms(added[1])
+        term = np.max([after * 0.0, *map(rms, self._terms(at)[1])], axis=0)
         white = filtered(clean[1], self._noise_filters)
         share = self._follows(at)
         found = []
@@ -646,28 +654,33 @@ class _Problem:
             found.append(
                 Left(
                     name, int(np.isfinite(clean[1, :, k]).sum()), float(before[k]),
-                    float(after[k]), float(noise[k]), memory, share[k], spans,
+                    float(after[k]), float(noise[k]), memory, share[k], spans, float(term[k]),
                 )
             )
         return tuple(found)
 
-    def terms(self, at: Array) -> tuple[Terms, ...]:
-        """Each residual as the term with the parameter that makes most of it, and all others."""
-        runs, count = self._runs, len(self._free)
+    def _terms(self, at: Array) -> tuple[Array, Array]:
+        """The residuals, (rows, residuals), and of each parameter the term with it in them."""
+        count = len(self._free)
         around = [at + s * _STEP * np.eye(len(at))[k] for k in range(count) for s in (1, -1)]
         clean = self._rows([at, *around])[0]
         share = (self.values(at) / self.scale)[:count, None, None]
-        parts = share * (clean[1::2] - clean[2::2]) / (2 * _STEP)
+        return clean[0], share * (clean[1::2] - clean[2::2]) / (2 * _STEP)
+
+    def terms(self, at: Array) -> tuple[Terms, ...]:
+        """Each residual as the term with the parameter that makes most of it, and all others."""
+        runs, count = self._runs, len(self._free)
+        value, parts = self._terms(at)
         found, pieces = [], runs.times()
         for log in dict.fromkeys(name for name, _, _ in pieces):
             time = np.concatenate([t for name, t, _ in pieces if name == log])
             rows = np.concatenate([np.arange(s.start, s.stop) for n, _, s in pieces if n == log])
             for k, name in enumerate(runs.engine.residuals):
-                if not count or not np.isfinite(clean[0, rows, k]).any():
+                if not count or not np.isfinite(value[rows, k]).any():
                     continue
                 one = int(np.argmax(rms(parts[:, :, k].T)))
                 term = parts[one, rows, k]
-                others = term - clean[0, rows, k]
+                others = term - value[rows, k]
                 found.append(Terms(name, self._free[one], log, time, term, others))
         return tuple(found)
 

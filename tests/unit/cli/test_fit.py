@@ -54,6 +54,21 @@ def test_the_table_the_file_and_the_json_say_the_same(bondgraph: Command, folder
     assert abs(found["noise"]["y"] - 0.01) < 0.001
 
 
+@pytest.mark.parametrize("squared", [0.0, 0.3])
+def test_a_log_without_noise_fits_unless_the_law_is_another(
+    bondgraph: Command, folder: Path, squared: float
+) -> None:
+    """What samples are off by is no noise and has a memory; a law that is squared in i is one."""
+    t = np.arange(6000) / 1000.0
+    i = np.sin(8.0 * t) + 0.5 * np.sin(21.0 * t)
+    rate = 8.0 * np.cos(8.0 * t) + 10.5 * np.cos(21.0 * t)
+    write_log(Log(t, {"U": 3.0 * i + squared * i**2 + 1e-3 * rate, "y": i}, {}, {}), "log.csv")
+    done = bondgraph("fit", "c.bg", "log.csv", "-o", "p.toml")
+    assert done.status == 0, done.err
+    assert ("of its largest term, as of samples without noise" in done.out) == (not squared)
+    assert ("the model" in done.out) == bool(squared)
+
+
 def test_what_is_not_told_has_no_interval(bondgraph: Command, folder: Path) -> None:
     text = MODEL.replace("param L", "param S = 1 Ohm; param L")
     text = text.replace("i -> R:R", "i -> R:R; i -> R:S")
