@@ -173,14 +173,17 @@ class _Work:
         if not self.drifts.any():
             return found
         own = self.engine.configured(bounds=False)
-        parts = [own.run(part) for part in self._parts(samples)]
+        rows = []
+        for part in self._parts(samples):
+            batch = own.run(part)
+            rows.append(np.where(batch.valid, batch.value, np.nan)[self.every - 1 :: self.every])
         for k in np.flatnonzero(self.drifts).tolist():
-            values = np.concatenate([np.where(p.valid[:, k], p.value[:, k], np.nan) for p in parts])
-            rows = values[self.every - 1 :: self.every]
-            found[:, k] = wander(rows).most, CAREFUL * stepped(rows)
+            values = np.concatenate(rows)[:, k]
+            found[:, k] = wander(values).most, CAREFUL * stepped(values)
         return found
 
     def _parts(self, samples: Array) -> Iterator[Array]:
+        """Whole rows of a log, some thousand samples at a time."""
         step = self.every * max(1, _CHUNK // self.every)
         for k in range(0, len(samples), step):
             yield samples[k : k + step]
