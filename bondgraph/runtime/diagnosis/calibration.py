@@ -155,7 +155,7 @@ class _Work:
             sizes.add(log)
         found = hypotheses(engine, model.faults, model.units, sizes.found())
         longest = max(logs, key=len, default=np.empty((0, len(engine.signals))))[:_CHUNK]
-        self.all = sized(engine, found, model.deliveries, self.nominal, longest)
+        self.all = sized(engine, found, self.nominal, longest)
         #: Numbers of hypotheses, each as what may jump; behind them those that need not.
         self.ways = [(k, False) for k in range(len(self.all))]
         self.ways += [(k, True) for k, h in enumerate(self.all) if h.fault in model.dynamic]

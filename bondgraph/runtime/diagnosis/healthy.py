@@ -43,12 +43,11 @@ class DiagnosisModel(NamedTuple):
     `faults` that some residual sees, with the nominal value of a parameter and None for a signal;
     `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
     does not tell apart; `memories` are what residuals keep of their first sample; `natures` by
-    residual; `deliveries` are the faults that are what a controller gives beyond its command;
-    `switches` that may be stuck, by the name of the fault. `accepted` are faults that the machine
-    is known to have, with the kind of their hypothesis and the deviation of what is known: what is
-    nominal is so with them. `dynamic` are the parameters that are multiplied with what changes, as
-    those of storages are: `SinceOnset` tries these in two ways. `doubles` tells which two faults at
-    once could look like a third one, when it is asked.
+    residual; `switches` that may be stuck, by the name of the fault. `accepted` are faults that the
+    machine is known to have, with the kind of their hypothesis and the deviation of what is known:
+    what is nominal is so with them. `dynamic` are the parameters that are multiplied with what
+    changes, as those of storages are: `SinceOnset` tries these in two ways. `doubles` tells which
+    two faults at once could look like a third one, when it is asked.
     """
 
     faults: Mapping[str, float | None]
@@ -58,7 +57,6 @@ class DiagnosisModel(NamedTuple):
     groups: Sequence[tuple[str, ...]]
     memories: tuple[Memory, ...]
     natures: Mapping[str, Nature]
-    deliveries: frozenset[str]
     switches: Mapping[str, Stuck]
     doubles: Callable[[], DoubleFaults]
     accepted: Mapping[tuple[str, str], float] = MappingProxyType({})
@@ -99,7 +97,6 @@ def diagnosis_model(
         grouped(matrix, modes, known),
         memories(program),
         _natures(graph, residuals, program),
-        frozenset(v.name for v in graph.values if v.delivery),
         known,
         doubles,
         dynamic=dynamic(graph, residuals),

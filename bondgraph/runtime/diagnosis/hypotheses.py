@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Literal
 
@@ -399,28 +399,31 @@ def hypotheses(
 def sized(
     engine: Engine,
     known: tuple[Hypothesis, ...],
-    deliveries: Container[str],
     nominal: Mapping[str, float],
     samples: Array,
 ) -> tuple[Hypothesis, ...]:
-    """The same with usual sizes of what controllers deliver wrongly, which is nominally nothing.
+    """The same with usual sizes of parameters that are nominally nothing.
 
-    How much a source delivers no log tells. But some signal of the same balance is as large: usual
-    is the share `_USUAL` of what moves a residual as that signal does, over (n, signals) samples
-    from where the engine is.
+    These are a leak that is not there yet, and what a controller delivers wrongly. By how much no
+    number tells: in SI units a hole may be 1e-9. But some signal of the same balance is as large:
+    usual is the share `_USUAL` of what moves a residual as that signal does, over (n, signals)
+    samples from where the engine is. A law may be bent, so that a step of the unit it is in is too
+    large for a slope: it is taken once more at what is usual then.
     """
-    own = [k for k, h in enumerate(known) if h.kind == "value" and h.fault in deliveries]
+    own = [k for k, h in enumerate(known) if h.kind == "value" and not nominal[h.fault]]
     gains = [k for k, h in enumerate(known) if h.kind == "gain"]
     if not own or not gains or not len(samples):
         return known
-    bank = Bank(copied(engine), [known[k] for k in (*own, *gains)], nominal)
-    moved = np.abs(bank.run(samples)).max(axis=0)
-    largest = moved[len(own) :].max(axis=0)
     found = list(known)
-    for k, slopes in zip(own, moved, strict=False):
-        seen = (slopes > 0) & (largest > 0)
-        if seen.any():
-            found[k] = known[k]._replace(usual=_USUAL * float(np.min(largest[seen] / slopes[seen])))
+    largest = np.abs(Bank(copied(engine), [known[k] for k in gains], nominal).run(samples))
+    largest = largest.max(axis=(0, 1))
+    for _ in range(2):
+        bank = Bank(copied(engine), [found[k] for k in own], nominal)
+        for k, slopes in zip(own, np.abs(bank.run(samples)).max(axis=0), strict=True):
+            seen = (slopes > 0) & (largest > 0)
+            if seen.any():
+                usual = _USUAL * float(np.min(largest[seen] / slopes[seen]))
+                found[k] = known[k]._replace(usual=usual)
     return tuple(found)
 
 

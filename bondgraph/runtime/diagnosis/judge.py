@@ -141,7 +141,7 @@ class Judge:
             self._engine, model.faults, model.units, sizes, model.switches, drifts=True
         )
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
-        found = sized(engine, found, model.deliveries, model.nominal, samples)
+        found = sized(engine, found, model.nominal, samples)
         machine = as_it_is(tolerated, model.nominal, history)
         self._compared = Comparison(
             engine, healthy, own, found, model.nominal, tolerated, machine, model.dynamic

@@ -122,10 +122,38 @@ def test_a_usual_wrong_delivery_is_a_share_of_the_largest_signal() -> None:
     known = hypotheses(engine, c.diagnosis_model.faults, c.diagnosis_model.units, {})
     nominal = c.diagnosis_model.nominal
     rows = np.tile([[3.0, 1.0]], (3000, 1))  # r, y
-    found = sized(engine.configured(), known, c.diagnosis_model.deliveries, nominal, rows)
+    found = sized(engine.configured(), known, nominal, rows)
     changed = {h.fault: h.usual for h, old in zip(found, known, strict=True) if h != old}
     assert changed == {"pump": pytest.approx(0.3 * _K * 3.0, rel=1e-3)}
-    assert sized(engine.configured(), known, (), nominal, rows) == known
+
+
+def test_a_usual_leak_is_a_share_of_the_largest_flow() -> None:
+    # at rest Q = k sqrt(p): a leak of 0.3 k lets through 0.3 Q, which is the largest of the balance
+    k, p = 2e-6, 4e4
+    c = compiled(
+        f"model M {{ param C = 1e-5; param k = {k}; param leak = 0; Sf:Q -> 0:t; t -> C:C"
+        "; t -> De:p; t -> R:out { f = k*ssqrt(e) }; t -> R:hole { f = leak*ssqrt(e) } }"
+    )
+    assert _usual(c, {"Q": k * math.sqrt(p), "p": p})["leak"] == pytest.approx(0.3 * k, rel=1e-3)
+
+
+def test_what_is_usual_of_a_bent_law_is_of_its_slope_at_nothing() -> None:
+    # r = i - U/(R + more): a step of 1e-5 Ohm is ten times R, and the slope at 0 is U/R^2
+    c = compiled(
+        "model M { param R = 1e-6; param more = 0; Se:U -> 1:w; w -> R:all { f = e/(R + more) }"
+        "; w -> Df:i }"
+    )
+    usual = _usual(c, {"U": 1.0, "i": 1e6})
+    assert usual["more"] == pytest.approx(0.3 * 1e-6, rel=1e-2)
+
+
+def _usual(c: Compilation, at: Mapping[str, float]) -> dict[str, float]:
+    """Usual sizes of the parameters of a machine at rest."""
+    engine, nominal = c.engine(), c.diagnosis_model.nominal
+    known = hypotheses(engine, c.diagnosis_model.faults, c.diagnosis_model.units, {})
+    rows = np.tile([[at[k.path] for k in engine.signals]], (3000, 1))
+    found = sized(engine.configured(), known, nominal, rows)
+    return {h.fault: h.usual for h in found if h.kind == "value"}
 
 
 def test_an_engine_is_told_what_laws_received_where_that_is_not_what_it_is_told() -> None:
