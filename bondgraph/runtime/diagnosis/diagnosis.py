@@ -85,7 +85,8 @@ class Diagnosis:
         inputs = {k.path for k in engine.signals if k.kind == "input"}
         encoders = {k.path: at for at, k in enumerate(engine.signals)
                     if k.path in model.faults and k.counts is not None}  # fmt: skip
-        self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders)
+        modes = [at for at, k in enumerate(engine.signals) if k.kind == "mode"]
+        self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders, modes)
         self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()
 

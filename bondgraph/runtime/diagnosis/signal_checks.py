@@ -35,6 +35,7 @@ _PAUSE = 32  # rows: what comes back within them has to be away for twice as lon
 _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
 _SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
+_RARE = 0.1  # share of the steps of a command that are about as large as one that is rare
 
 
 class Unusual(NamedTuple):
@@ -82,18 +83,23 @@ class SignalChecks:
 
     `inputs` drive the machine: they may jump and be rough as never before, and so may sensors
     then. What an input shows so is not told by itself; whether it is wrong residuals say. Nor does
-    one stand still that is as large as ever, or as small: controllers are limited. Of `encoders`,
-    by their columns, is told which stands still while others go on.
+    one stand still that is as large as ever, or as small: controllers are limited. Where one of
+    them, or one of the `modes` by their columns, makes a step that is rare, a sensor may answer
+    with a peak of a sample or two, as the current into a capacitor that is switched on: no spike
+    is looked for there. Of `encoders`, by their columns, is told which stands still while others
+    go on.
     """
 
     def __init__(
         self, names: Sequence[str], at: Sequence[int], sample_time: float,
         inputs: Container[str] = (), encoders: Mapping[str, int] = MappingProxyType({}),
+        modes: Sequence[int] = (),
     ) -> None:  # fmt: skip
         self._encoders = StandingEncoders(encoders)
         self._names, self._at, self._step = tuple(names), list(at), sample_time
         self._inputs = inputs
         self._drive = np.array([name in inputs for name in self._names], dtype=np.bool_)
+        self._steer = [*np.array(self._at, dtype=int)[self._drive].tolist(), *modes]
         count = len(self._names)
         self._seen: list[Array] = []  # healthy samples until the weights are known
         self._weights = np.empty((0, 2))  # (signals, 2): of the nearest and the next ones
@@ -114,6 +120,7 @@ class SignalChecks:
     def restart(self) -> None:
         """The samples begin anew."""
         self._last = np.empty((0, len(self._names)))
+        self._steered = np.empty((0, len(self._steer)))  # commands and modes of these samples
         self._run = np.zeros(len(self._names))
         #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
         self._loud = np.zeros((_AFTER, 2, len(self._names)), dtype=np.bool_)
@@ -139,14 +146,15 @@ class SignalChecks:
         """What signals show each by itself, and inputs that move as never before."""
         own = np.where(np.isfinite(samples), samples, math.nan)[:, self._at]
         with_last = np.concatenate([self._last, own])
+        steered = np.concatenate([self._steered, samples[:, self._steer]])
         runs, ended, changes = self._runs(own)
-        self._last = with_last[-4 * _SIDE :]
+        self._last, self._steered = with_last[-4 * _SIDE :], steered[-4 * _SIDE :]
         if not self._names or len(with_last) < 4 * _SIDE + 1:
             return {}, ()
         if not len(self._weights):
             self._first(own, healthy)
             return {}, ()
-        far, rough, moved, where = self._looked_at(with_last)
+        far, rough, moved, where = self._looked_at(with_last, _answers(steered))
         found = {}
         top = np.fmax(self._range[1], own.max(axis=0))
         bottom = np.fmin(self._range[0], own.min(axis=0))
@@ -271,7 +279,8 @@ class SignalChecks:
             _, ended, changes = self._runs(row)
             last = with_last[-4 * _SIDE :]
             if len(with_last) >= 4 * _SIDE + 1:
-                far, rough, moved, _ = self._looked_at(with_last)
+                calm = np.zeros(len(with_last), dtype=np.bool_)
+                far, rough, moved, _ = self._looked_at(with_last, calm)
                 self._learn(row, far, rough, moved, ended, changes)
         self._last = last
 
@@ -300,17 +309,18 @@ class SignalChecks:
         self._samples += np.where(fresh, len(own), 0)
         self._rows += fresh
 
-    def _looked_at(self, samples: Array) -> tuple[Array, Array, Array, Array]:
+    def _looked_at(self, samples: Array, answers: Mask) -> tuple[Array, Array, Array, Array]:
         """Of samples (n, signals): the largest spike, by how much it is off what its neighbours let
         expect, and the next spike that is not beside it; the roughness, what the signals move, and
-        where the spike is."""
+        where the spike is. What a sensor `answers` to a command (n,) is no spike."""
         near, next_, middle = _around(samples)
         error = middle - near * self._weights[:, 0] - next_ * self._weights[:, 1]
         off, inside = np.abs(error), slice(_SIDE, len(error) - _SIDE)
         before, after = samples[1:-3], samples[3:-1]
         median = np.clip(middle, np.minimum(before, after), np.maximum(before, after))
         either = np.minimum(off, np.abs(middle - median))[inside]
-        spike = np.where(self._steps(error), 0.0, either)
+        peaks = answers[2 * _SIDE : len(samples) - 2 * _SIDE, None] & ~self._drive
+        spike = np.where(self._steps(error) | peaks, 0.0, either)
         apart = np.abs(np.arange(len(spike))[:, None] - spike.argmax(axis=0)) > _SIDE
         second = np.where(apart, either, 0.0).max(axis=0)
         where = np.where(apart, 0.0, off[inside]).argmax(axis=0)  # its neighbours are out as well
@@ -366,3 +376,26 @@ class SignalChecks:
 def _around(samples: Array) -> tuple[Array, Array, Array]:
     """For each sample that has two on either side: sums of the nearest and the next, and itself."""
     return samples[1:-3] + samples[3:-1], samples[:-4] + samples[4:], samples[2:-2]
+
+
+def _answers(steered: Array) -> Mask:
+    """At which samples sensors may answer to a rare step of what is `steered`, (n, commands).
+
+    A step is rare that few others come near to: those of a command that is held over some samples,
+    of a converter or of a noisy reading do.
+
+    >>> on = np.zeros((40, 1))
+    >>> on[25:] = 1.0
+    >>> np.flatnonzero(_answers(on)).tolist()
+    [24, 25, 26, 27]
+    >>> np.flatnonzero(_answers(np.arange(40)[:, None] // 4 % 2 * 1.0)).tolist()
+    []
+    """
+    sizes = np.abs(np.diff(steered, axis=0, prepend=steered[:1]))
+    rare = np.zeros(len(sizes), dtype=np.bool_)
+    for column in np.where(np.isfinite(sizes), sizes, 0.0).T:
+        near = len(column) - np.searchsorted(np.sort(column), column / _ALONE)
+        rare |= (column > 0.0) & (near <= _RARE * len(column))
+    found = np.concatenate([np.zeros(_SIDE, dtype=np.bool_), rare, np.zeros(1, dtype=np.bool_)])
+    around = np.lib.stride_tricks.sliding_window_view(found, _SIDE + 2)
+    return np.asarray(around.any(axis=1))

@@ -231,3 +231,41 @@ def test_what_an_input_does_as_never_before_is_no_fault_of_a_sensor() -> None:
         said = [one for k, row in enumerate(rows) for one in checks.row(k * 1.0, row, True)]
         seen[inputs] = {one.signal for one in said}
     assert seen == {(): {"u", "y"}, ("u",): set()}
+
+
+@pytest.mark.parametrize("kind", ["command", "mode"])
+def test_a_current_into_a_capacitor_that_is_switched_on_is_no_spike(kind: str) -> None:
+    # i = U/R exp(-t/(R C)), gone within a sample: R C is half of one
+    draw = np.random.default_rng(9)
+    t, on = np.arange(4000) * _STEP, np.zeros(4000)
+    current = 0.2 * np.sin(0.7 * t) + 0.01 * draw.normal(size=4000)
+    for at in (1010, 2510, 3010):
+        on[at : at + 300] = 1.0
+        current[at:] += (0.0, 3.0, 9.0, 5.0)[at // 1000] * np.exp(-(t[at:] - t[at]) / (_STEP / 2))
+    samples = np.column_stack([on, current])
+    assert _switched(samples, kind) == []
+    samples[3700, 1] += 3.0  # where nothing is switched
+    (one,) = _switched(samples, kind)
+    assert (one.signal, one.kind) == ("i", "spike")
+    assert one.since == pytest.approx(37.0, abs=1.5 * _STEP)
+
+
+def test_a_spike_beside_a_command_that_is_held_over_some_samples_is_one() -> None:
+    draw = np.random.default_rng(3)
+    held = np.repeat(draw.normal(size=800), 5)  # steps at each fifth sample: none of them is rare
+    current = 0.01 * draw.normal(size=4000)
+    current[3700] += 1.0
+    assert [one.signal for one in _switched(np.column_stack([held, current]), "command")] == ["i"]
+
+
+def _switched(samples: Array, kind: str) -> list[Unusual]:
+    """What is unusual of a current, `samples` of a command or a mode and of it."""
+    if kind == "mode":
+        checks = SignalChecks(["i"], [1], _STEP, modes=[0])
+    else:
+        checks = SignalChecks(["on", "i"], [0, 1], _STEP, inputs=("on",))
+    return [
+        one
+        for k in range(0, len(samples) - _ROW + 1, _ROW)
+        for one in checks.row((k + _ROW - 1) * _STEP, samples[k : k + _ROW], not checks.active)
+    ]
