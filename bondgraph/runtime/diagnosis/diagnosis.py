@@ -31,6 +31,7 @@ from bondgraph.runtime.diagnosis.rows import (
     usual,
     weight,
 )
+from bondgraph.runtime.diagnosis.sensor_offsets import SensorOffsets, sensor_offsets
 from bondgraph.runtime.diagnosis.signal_checks import SignalChecks
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
@@ -59,7 +60,12 @@ class Diagnosis:
         self._engine = engine
         self._every = rows_apart(engine)
         known = hypotheses(engine, model.faults, model.units, {})
-        self._tolerated, spread = tolerated(known, model)
+        own, spread = tolerated(known, model)
+        offsets = sensor_offsets(known, model)
+        self._tolerated = (*own, *offsets)
+        place = {k.path: at for at, k in enumerate(engine.signals)}
+        self._offsets = SensorOffsets(offsets, len(own), place)
+        spread = np.append(spread, np.zeros(len(offsets)))
         self._lasting = len(spread)  # those that stay; starts that were estimated stand behind
         self._history = History(spread)
         used = np.array([name in model.sees for name in engine.residuals], dtype=bool)
@@ -128,6 +134,7 @@ class Diagnosis:
                 fresh = self._learning.part(part, healthy=not self._detection.alarmed)
                 self._status.relearning(float(part.time[0]), fresh, out)
             line = part.bound + self._limits[:, 2] * self._limits[:, 0]
+            line += self._offsets.room(part, line, self._history)
             line[~np.isfinite(line)] = math.nan
             self._last.append(Batch(part.value, part.valid, line))
             for k, fresh in self._detection.samples(part, line):
@@ -263,7 +270,8 @@ class Diagnosis:
             self._calm.clear()
             return
         self._calm.append(row)
-        waits = self._learning is not None and self._learning.first
+        self._offsets.row(row.samples, self._history)
+        waits = not self._offsets.known or (self._learning is not None and self._learning.first)
         wait = int(_MEMORY) if waits else max(HEALTHY, int(self._detection.held.max(initial=0)))
         while len(self._calm) > wait:
             old = self._calm.popleft()
@@ -428,6 +436,7 @@ class Diagnosis:
         elif other._learning is None:
             self._learning = None
         self._limits = other._limits
+        self._offsets.resume(self._history)
 
     # ---------------------------------------------------------------- persistence
 
@@ -457,6 +466,7 @@ class Diagnosis:
         if detection.alarmed != (latched is not None):
             raise ValueError("residuals have fired and nothing is latched, or the other way round")
         self._tolerated, self._history = known, history
+        self._offsets.resume(history)
         self.restart()
         self._detection, self._judge.latched = detection, latched
         self._origins.resume(state["origins"])

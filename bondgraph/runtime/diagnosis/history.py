@@ -13,7 +13,7 @@ from bondgraph.runtime.log import Array, Mask
 
 HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
 _KEPT = 1.0 - 1.0 / 1000.0  # of what is known, with each further row
-_UNKNOWN = 2.0  # deviations of what is not known of healthy parameters
+UNKNOWN = 2.0  # deviations of what is not known of healthy parameters
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 
@@ -68,6 +68,12 @@ class History:
         self.prior = self.prior * scale
         self.root = self.root * np.append(scale, 1.0)
 
+    def widen(self, numbers: Sequence[int], deviations: Array) -> None:
+        """Take some parameters of which nothing was to be known, for off by these deviations."""
+        prior = self.prior.copy()
+        prior[list(numbers)] = deviations
+        self.prior = prior
+
     def last(self, count: int) -> tuple[Array, Array]:
         """By how much the last parameters are off, most probably, and the covariance of that."""
         start = len(self.prior) - count
@@ -104,7 +110,7 @@ class History:
         slopes = row.slopes if own is None else np.concatenate([row.slopes, own.slopes], axis=1)
         expected, variance = self.expected(slopes)
         sure = sure & np.isfinite(expected[:count]) & np.isfinite(variance[:count])
-        unknown = _UNKNOWN * np.sqrt(np.where(np.isfinite(variance), variance, 0.0))
+        unknown = UNKNOWN * np.sqrt(np.where(np.isfinite(variance), variance, 0.0))
         bound = COVERED * (row.bound - row.doubt) + row.doubt + unknown[:count]
         if own is not None:
             less = np.where(sure & own.valid, expected[count:], 0.0)

@@ -1,0 +1,99 @@
+"""How far off a healthy sensor is: by a constant about as large as its noise, which no model says.
+
+An instrument is adjusted to no better than it reads. Where nothing is said of that, a parameter
+within its tolerance takes what the offset of a sensor does while the machine stays as it is, and
+the offset alone remains when that changes: as the friction of a drum takes what a load cell says
+too much, until the drum stands still.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
+from bondgraph.runtime.diagnosis.history import UNKNOWN, History
+from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
+from bondgraph.runtime.diagnosis.rows import Part
+from bondgraph.runtime.log import Array
+
+_ROWS = 10  # that tell the noise of a sensor: their median, as some may be rough
+_ORDER = 3  # of the differences in which what a machine does is small beside noise
+
+
+class SensorOffsets:
+    """Learns how large the offsets of sensors may be, `known` from when on parameters are learned.
+
+    `first` is the number of the first of them among what is tolerated; `place` has the columns of
+    the signals. Until they are known their deviation is 0: there are none.
+    """
+
+    def __init__(
+        self, offsets: Sequence[Hypothesis], first: int, place: Mapping[str, int]
+    ) -> None:
+        self._numbers = list(range(first, first + len(offsets)))
+        self._columns = [place[h.fault] for h in offsets]
+        self._rows: list[Array] = []
+        self.known = not offsets
+
+    def row(self, samples: Array, history: History) -> None:
+        """One more row of healthy (n, signals) samples; the last one that is needed tells."""
+        if self.known or len(samples) <= _ORDER:
+            return
+        self._rows.append(roughness(samples[:, self._columns]))
+        if len(self._rows) >= _ROWS:
+            history.widen(self._numbers, np.median(self._rows, axis=0))
+            self.known, self._rows = True, []
+
+    def room(self, part: Part, line: Array, history: History) -> Array:
+        """What offsets may add to thresholds (n, residuals), where residuals are above their line.
+
+        Where the machine is as it was while they were learned, that is next to nothing: what they
+        do is in the mean of a residual, or in what is expected of it. It is no more than offsets do
+        at most.
+        """
+        room, out = np.zeros_like(line), np.abs(part.value) > line
+        at = np.flatnonzero(out.any(axis=1))
+        if not len(at) or not self._numbers:
+            return room
+        slopes = part.slopes[at].transpose(1, 0, 2)
+        expected, variance = history.expected(slopes.reshape(len(slopes), -1))
+        far = (np.abs(expected) + UNKNOWN * np.sqrt(variance)).reshape(len(at), -1)
+        own = np.abs(slopes[self._numbers]) * history.prior[self._numbers, None, None]
+        most = math.sqrt(3.0) * own.sum(axis=0)
+        room[at] = np.where(out[at], np.clip(far - part.bound[at], 0.0, most), 0.0)
+        return room
+
+    def resume(self, history: History) -> None:
+        """Go on with what is known: deviations that are not 0."""
+        self.known = not self._numbers or bool(history.prior[self._numbers].any())
+
+
+def sensor_offsets(
+    known: Sequence[Hypothesis], model: DiagnosisModel
+) -> tuple[Hypothesis, ...]:
+    """The offsets of sensors, but of encoders, which have no noise, and of what was accepted."""
+    return tuple(
+        h for h in known
+        if h.kind == "offset" and not h.turned and h.unit != COUNT
+        and (h.fault, h.kind) not in model.accepted
+    )  # fmt: skip
+
+
+def roughness(samples: Array) -> Array:
+    """The deviation of white noise with third differences such as those of (n, signals) samples.
+
+    A difference of third order has the coefficients 1, -3, 3, -1, and so 20 times the variance.
+    0 where a signal has no value.
+
+    >>> t = np.arange(2000) * 0.01
+    >>> noisy = np.sin(t) + np.random.default_rng(1).normal(0.0, 0.05, 2000)
+    >>> roughness(np.column_stack([np.sin(t), noisy])).round(3).tolist()
+    [0.0, 0.05]
+    """
+    squares = np.square(np.diff(samples, _ORDER, axis=0))
+    found = np.isfinite(squares)
+    total = np.where(found, squares, 0.0).sum(axis=0)
+    return np.asarray(np.sqrt(total / np.maximum(found.sum(axis=0), 1) / math.comb(6, 3)))

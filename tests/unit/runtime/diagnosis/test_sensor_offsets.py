@@ -1,0 +1,84 @@
+"""Sensors that are off by a constant about as large as their noise are well."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.sensor_offsets import roughness
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.verdict import Verdict
+from tests.unit.passes.relations import compiled
+
+_STEP, _STOPS, _ENDS = 0.01, 80.0, 120.0
+_R, _NOISE = 2.0, 0.08  # Ohm, V
+
+
+@cache
+def _line() -> Compilation:
+    """A resistance with a tolerance between a supply and a load that nobody knows."""
+    return compiled(
+        "model M { input draw : A unknown; param R = 2 Ohm +- 20%; Se:U -> 1:line; line -> R:R"
+        "; line -> Df:i; line -> 0:load; load -> De:y; load -> Sf:sink = draw }"
+    ).with_options(rate=1.0 / _STEP)
+
+
+def _log(seed: int, bias: float, later: float = 0.0) -> Array:
+    """U, i and y, where y is off by a bias, and by something more from 100 s on.
+
+    The current is 6 A until 80 s and nothing then: y = U - R i has no other part.
+    """
+    draw = np.random.default_rng(seed)
+    t = np.arange(0.0, _ENDS, _STEP)
+    current = np.where(t < _STOPS, 6.0 + 0.05 * np.sin(t), 0.0)
+    supply = 24.0 + 0.5 * np.sin(0.3 * t)
+    reading = supply - _R * current + bias + np.where(t >= 100.0, later, 0.0)
+    told = {"U": supply, "i": current, "y": reading + _NOISE * draw.normal(size=len(t))}
+    return np.column_stack([told[k.path] for k in _line().engine().signals])
+
+
+def _watched(samples: Array) -> list[Verdict]:
+    """What is told of a fault."""
+    engine = _line().engine().configured(bandwidth=2.0)
+    watch, said = _line().diagnosis(engine), []
+    time = np.arange(len(samples)) * _STEP
+    for k in range(0, len(samples), 500):
+        part = samples[k : k + 500]
+        said += watch.update(time[k : k + 500], engine.run(part), part)
+    return [v for v in said if v.event in ("fault", "update")]
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("bias", [-_NOISE, 0.0, _NOISE])
+def test_a_bias_as_large_as_the_noise_is_no_fault_of_a_machine_that_stops(
+    seed: int, bias: float
+) -> None:
+    # while 6 A flow, R takes what the voltmeter is off by; at rest nothing but that is left
+    assert _watched(_log(seed, bias)) == []
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_bias_of_many_times_the_noise_is_a_fault(seed: int) -> None:
+    said = _watched(_log(seed, 0.0, 10 * _NOISE))
+    assert said and 100.0 <= said[0].time < 102.0
+    assert "y" in {c.fault for v in said for c in v.candidates}
+
+
+def test_one_that_sets_in_while_the_machine_goes_on_is_seen_beside_what_was_learned() -> None:
+    samples = _log(1, 0.0)
+    at = [k.path for k in _line().engine().signals].index("y")
+    samples[6000:, at] += 5 * _NOISE
+    assert 60.0 <= _watched(samples[:7900])[0].time < 79.0
+
+
+def test_roughness_is_the_deviation_of_what_is_white() -> None:
+    draw, t = np.random.default_rng(4), np.arange(20000) * 0.01
+    moving = 3.0 * np.sin(2.0 * t) + 5.0 * t
+    noise = draw.normal(0.0, 0.2, len(t))
+    empty = np.full(len(t), math.nan)
+    found = roughness(np.column_stack([moving, moving + noise, empty]))
+    assert found == pytest.approx([0.0, 0.2, 0.0], abs=0.004)
