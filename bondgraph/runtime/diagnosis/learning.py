@@ -94,6 +94,9 @@ class Learning:
         self._drifts = np.array([n.drifts for n in natures], dtype=bool)
         self._stays = self._approximate | self._drifts
         self._centred = centred(model, engine.residuals)
+        remembers = {r for m in model.memories for r in m.residuals}
+        self._rests = [not stays and r not in remembers
+                       for r, stays in zip(engine.residuals, self._stays, strict=True)]  # fmt: skip
         self.hopeless = np.zeros(len(used), dtype=bool)  # approximations that are too far off
         self.off = np.zeros(len(used), dtype=bool)  # residuals that are surely not zero in the mean
         self._used, self._wanted = used.copy(), used.copy()
@@ -216,7 +219,7 @@ class Learning:
         self._rows.append(_Healthy(raw, row.bound, slopes, average, tilt, settings))
         self._counts += valid
         fresh = np.zeros_like(valid)
-        rest: tuple[Array, Array, Array] | None = None
+        rest: tuple[Array, Array, Array, Array] | None = None
         for k in np.flatnonzero(valid & self._used & ~self.hopeless).tolist():
             if self._wanted[k] and self._sigma[k] and settings[k] <= self._learned[k]:
                 self._wanted[k] = False  # back to what is known
@@ -239,17 +242,19 @@ class Learning:
         batch = self._bank.batch
         return np.where(batch is not None and batch.valid[-1], slopes, math.nan)
 
-    def _rest(self) -> tuple[Array, Array, Array]:
+    def _rest(self) -> tuple[Array, Array, Array, Array]:
         """What is left of the rows with parameters as they fit best, (rows, residuals).
 
-        The same of their averages, and the degrees of freedom that this has cost each residual.
+        The same of their averages, the degrees of freedom that this has cost each residual, and
+        what is left of the rows with parameters that stay within their tolerances.
         """
         value = np.array([one.value for one in self._rows])
         bound = np.array([one.bound for one in self._rows])
         average = np.array([one.average for one in self._rows])
         count = len(self._prior)
         if not count:
-            return uncovered(value, bound), uncovered(average, bound), np.zeros(value.shape[1])
+            left = uncovered(value, bound)
+            return left, uncovered(average, bound), np.zeros(value.shape[1]), left
         tilts = np.array([one.tilt for one in self._rows]).transpose(0, 2, 1) * self._prior
         slopes = np.array([one.slopes for one in self._rows]).transpose(0, 2, 1) * self._prior
         weight = np.where(np.isfinite(value), self._weight(value, bound), 0.0)
@@ -262,7 +267,9 @@ class Learning:
             owed = np.square(basis[:-count]).sum(axis=1).reshape(value.shape).sum(axis=0)
             rest = value - slopes @ found
             weight = weight * within(rest)
-        return uncovered(rest, bound), uncovered(average - tilts @ found, bound), owed
+        beyond = value - slopes @ _within_tolerance(root, basis[:-count].T @ wanted)
+        least, average = uncovered(rest, bound), uncovered(average - tilts @ found, bound)
+        return least, average, owed, uncovered(beyond, bound)
 
     def _weight(self, value: Array, bound: Array) -> Array:
         """One over what residuals may be off by, noise from what neighbouring rows differ by."""
@@ -272,7 +279,14 @@ class Learning:
         return np.where(variance > 0, 1.0 / np.sqrt(np.maximum(variance, 1e-300)), 0.0)
 
     def _estimated(
-        self, k: int, setting: _Settings, rest: Array, average: Array, owed: Array, held: int
+        self,
+        k: int,
+        setting: _Settings,
+        rest: Array,
+        average: Array,
+        owed: Array,
+        beyond: Array,
+        held: int,
     ) -> bool:
         """Whether the noise of a residual, that was not known in this setting, is known now."""
         every = np.array([one.settings[k] == setting for one in self._rows])
@@ -302,8 +316,8 @@ class Learning:
         self.unsure[k] = False
         often = math.ceil(_MORE * (self._counts[k] - held))
         self._due[k] = _MOST + 1 if self._approximate[k] else often
-        deviation = found.sigma * math.sqrt(found.memory / found.rows)
-        self.off[k] = abs(found.mean) > max(_OFF * deviation, found.sigma)
+        left = np.where(np.isfinite(values), beyond[:, k], math.nan)
+        self.off[k] = self._rests[k] and _off(left, float(owed[k]))
         self.limits[k, 0] = max(self._sigma[k].values())
         self.limits[k, 4:6] = found.mean, found.memory
         if self._drifts[k]:
@@ -351,6 +365,36 @@ class _Healthy(NamedTuple):
     average: Array
     tilt: Array
     settings: list[_Settings]
+
+
+def _within_tolerance(root: Array, wanted: Array) -> Array:
+    """The parameters, in deviations, that fit best without one being out of its tolerance.
+
+    The least |root z - wanted|; a parameter that would be further off is held at its tolerance, and
+    the others are fitted again.
+
+    >>> root, wanted = np.array([[1.0, 0.5], [0.0, 1.0]]), np.array([4.0, 1.0])
+    >>> _within_tolerance(root, wanted).round(2).tolist()
+    [1.73, 1.71]
+    """
+    most, found = math.sqrt(3.0), np.zeros(len(wanted))
+    free = np.ones(len(wanted), dtype=np.bool_)
+    while free.any():
+        left = wanted - root[:, ~free] @ found[~free]
+        found[free] = np.linalg.lstsq(root[:, free], left)[0]
+        over = np.abs(found) > most
+        found[over] = np.copysign(most, found[over])
+        if not (over & free).any():
+            break
+        free &= ~over
+    return found
+
+
+def _off(values: Array, owed: float) -> bool:
+    """Whether rows surely do not stand at zero, whatever is taken for their noise."""
+    found = noise(values, owed)
+    deviation = found.sigma * math.sqrt(found.memory / max(found.rows, 1))
+    return abs(found.mean) > max(_OFF * deviation, found.sigma)
 
 
 def _settings(modes: Array) -> _Settings:

@@ -121,6 +121,38 @@ def test_a_residual_that_does_not_stand_at_zero_is_told_and_watched_where_it_sta
     assert learning.limits[0, 0] == pytest.approx(1.0, rel=0.3)
 
 
+def test_a_residual_with_a_switch_that_does_not_stand_at_zero_is_told_too() -> None:
+    text = _TEXT.replace("param R", "input on : bool; param R")
+    text = text.replace("R:r = R", "R:r { e = if(on, R, 2*R)*f }")
+    model = Compilation(Source("m.bg", text))
+    engine = model.engine(native=False)
+    for stands in (0.0, 5.0):
+        learning = Learning(engine, (), np.ones(1, dtype=bool), model.diagnosis_model)
+        for value in drawn(30):
+            one = row(engine, stands + value)
+            one = one._replace(samples=np.ones((100, len(engine.signals))))
+            told(learning, one)
+        assert learning.off[0] == (stands > 0.0)
+        assert learning.limits[0, 4] == 0.0  # it may stand elsewhere with the switch turned
+
+
+@pytest.mark.parametrize(("ohm", "off"), [(0.08, False), (0.5, True), (-0.5, True)])
+def test_a_parameter_that_is_out_of_its_tolerance_from_the_start_is_told(
+    ohm: float, off: bool
+) -> None:
+    # r = U - R i, i = 3 A, and R = 2 Ohm within 0.1: what is off by 0.5 Ohm is no noise of 0.02 V
+    text = _TEXT.replace("2 Ohm", "2 Ohm +- 5%")
+    model = Compilation(Source("m.bg", text)).diagnosis_model
+    engine = Compilation(Source("m.bg", text)).engine(native=False)
+    known = Hypothesis("R", "value", "Ohm", 0.6, True)
+    learning = Learning(engine, (known,), np.ones(1, dtype=bool), model)
+    for value in drawn(30, 0.02):
+        slopes = np.full((1, 1), 3.0)
+        one = row(engine, 3.0 * ohm + value)._replace(slopes=slopes, bound=np.full(1, 0.3))
+        told(learning, one)
+    assert learning.off[0] == off
+
+
 def test_a_residual_that_does_not_move_at_all_has_no_noise_yet() -> None:
     learning, engine = learner()
     for _ in range(2 * FIRST):
