@@ -18,6 +18,7 @@ from bondgraph.runtime.diagnosis.isolation import Explained, inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
+from bondgraph.runtime.diagnosis.noise import COVERED
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
 from bondgraph.runtime.diagnosis.rows import (
     Average,
@@ -232,7 +233,7 @@ class Diagnosis:
                 self._learning = None
         unsure = False if self._learning is None else self._learning.unsure
         self._levels.ahead(self._detection.alarmed)
-        own = self._levels.beside(self._history.innovation(row, np.logical_not(unsure)))
+        own = self._levels.beside(self._innovation(row, unsure))
         fresh = self._detection.row(own, self._limits)
         if fresh.any():
             self._fire(row.time, fresh, [], out)
@@ -248,6 +249,13 @@ class Diagnosis:
             if known is None and self._judge.best is not None:
                 self._detection.reconsider()
             self._over(own, out)
+
+    def _innovation(self, row: Row, unsure: Mask | bool) -> Row:
+        """A row less what is expected, with room for what offsets of sensors may drift by."""
+        steep = self._offsets.steep(row, self._history)
+        own = self._history.innovation(row, ~(steep | unsure))
+        share = np.where(steep, 1.0, COVERED)
+        return own._replace(bound=own.bound + share * self._offsets.most(row, self._history))
 
     def _learn(self, row: Row, healthy: bool) -> Mask:
         """Which residuals are known with this row; where they stand holds for rows before too."""
@@ -270,20 +278,23 @@ class Diagnosis:
             self._calm.clear()
             return
         self._calm.append(row)
-        self._offsets.row(row.samples, self._history)
+        self._offsets.row(row, self._history)
         waits = not self._offsets.known or (self._learning is not None and self._learning.first)
         wait = int(_MEMORY) if waits else max(HEALTHY, int(self._detection.held.max(initial=0)))
         while len(self._calm) > wait:
             old = self._calm.popleft()
             if self._levels.walking:
                 self._levels.learn(*self._beside(old))
-            self._history.add(*steady(old, self._weight(old)))
+            sound = ~self._offsets.steep(old, self._history)
+            self._history.add(*steady(old, self._weight(old) * sound))
+            self._offsets.learned(old, self._history)
             self._origins.learn(self._tolerated, self._history)
 
     def _beside(self, row: Row) -> tuple[Array, Mask]:
         """What a row is beside the parameters that healthy rows have told of."""
-        own = self._history.innovation(row, np.ones(len(row.value), dtype=np.bool_))
-        known = np.isfinite(self._limits[:, 0])
+        sound = ~self._offsets.steep(row, self._history)
+        own = self._history.innovation(row, sound)
+        known = np.isfinite(self._limits[:, 0]) & sound
         if own.average is None:
             return own.value, own.valid & known
         lasting = self._limits[:, 6] > 0.0

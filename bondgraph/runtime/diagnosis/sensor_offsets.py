@@ -9,17 +9,19 @@ too much, until the drum stands still.
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
-from bondgraph.runtime.diagnosis.history import UNKNOWN, History
+from bondgraph.runtime.diagnosis.history import HEALTHY, UNKNOWN, History
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
-from bondgraph.runtime.diagnosis.rows import Part
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.diagnosis.rows import Part, Row
+from bondgraph.runtime.log import Array, Mask
 
 _ROWS = 10  # that tell the noise of a sensor: their median, as some may be rough
+_STEEP = 4.0  # times what offsets did while they were learned: a slope says little of that
 _ORDER = 3  # of the differences in which what a machine does is small beside noise
 
 
@@ -35,17 +37,56 @@ class SensorOffsets:
     ) -> None:
         self._numbers = list(range(first, first + len(offsets)))
         self._columns = [place[h.fault] for h in offsets]
-        self._rows: list[Array] = []
+        self._rows: list[tuple[Array, Array]] = []
+        self._usual: Array | None = None  # what offsets did at most to residuals as they are known
+        self._last: deque[Array] = deque(maxlen=HEALTHY)  # the same of the last rows
         self.known = not offsets
 
-    def row(self, samples: Array, history: History) -> None:
-        """One more row of healthy (n, signals) samples; the last one that is needed tells."""
-        if self.known or len(samples) <= _ORDER:
+    def row(self, row: Row, history: History) -> None:
+        """One more row of a healthy machine; the last one that is needed tells."""
+        if self.known or len(row.samples) <= _ORDER:
             return
-        self._rows.append(roughness(samples[:, self._columns]))
+        self._rows.append((roughness(row.samples[:, self._columns]), row.slopes))
         if len(self._rows) >= _ROWS:
-            history.widen(self._numbers, np.median(self._rows, axis=0))
+            rough, slopes = (np.array(x) for x in zip(*self._rows, strict=True))
+            history.widen(self._numbers, np.median(rough, axis=0))
+            self._usual = np.median(self._most(slopes, history), axis=0)
             self.known, self._rows = True, []
+
+    def steep(self, row: Row, history: History) -> Mask:
+        """In which residuals offsets would do much more than ever while they were learned.
+
+        What they do there is not what its slope says, as with a root of a difference of pressures
+        that comes near to zero: they may do all that they do at most, and nothing is learned.
+        """
+        if self._usual is None:
+            return np.zeros(len(row.value), dtype=np.bool_)
+        return np.asarray(self.most(row, history) > _STEEP * self._usual)
+
+    def learned(self, row: Row, history: History) -> None:
+        """Parameters and offsets have been learned from a row.
+
+        What is steep in some rows that follow each other is how the machine is driven now.
+        """
+        most = np.where(row.valid, self.most(row, history), 0.0)
+        if self._usual is None:
+            self._usual = most
+        self._last.append(most)
+        lasting = np.min(self._last, axis=0) if len(self._last) == HEALTHY else np.zeros_like(most)
+        usual = np.where(most <= _STEEP * self._usual, most, lasting)
+        self._usual = np.maximum(self._usual, usual)
+
+    def most(self, row: Row, history: History) -> Array:
+        """What offsets do to residuals at most, in a row or in its average."""
+        found = self._most(row.slopes, history)
+        return found if row.average is None else np.maximum(
+            found, self._most(row.average.slopes, history)
+        )  # fmt: skip
+
+    def _most(self, slopes: Array, history: History) -> Array:
+        """The same by slopes of the shape (..., known, residuals)."""
+        own = np.abs(slopes[..., self._numbers, :]) * history.prior[self._numbers, None]
+        return np.asarray(math.sqrt(3.0) * own.sum(axis=-2))
 
     def room(self, part: Part, line: Array, history: History) -> Array:
         """What offsets may add to thresholds (n, residuals), where residuals are above their line.
@@ -61,8 +102,7 @@ class SensorOffsets:
         slopes = part.slopes[at].transpose(1, 0, 2)
         expected, variance = history.expected(slopes.reshape(len(slopes), -1))
         far = (np.abs(expected) + UNKNOWN * np.sqrt(variance)).reshape(len(at), -1)
-        own = np.abs(slopes[self._numbers]) * history.prior[self._numbers, None, None]
-        most = math.sqrt(3.0) * own.sum(axis=0)
+        most = self._most(part.slopes[at], history)
         room[at] = np.where(out[at], np.clip(far - part.bound[at], 0.0, most), 0.0)
         return room
 

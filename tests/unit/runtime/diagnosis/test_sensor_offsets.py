@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from itertools import accumulate
 
 import numpy as np
 import pytest
@@ -82,3 +83,39 @@ def test_roughness_is_the_deviation_of_what_is_white() -> None:
     empty = np.full(len(t), math.nan)
     found = roughness(np.column_stack([moving, moving + noise, empty]))
     assert found == pytest.approx([0.0, 0.2, 0.0], abs=0.004)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_root_of_a_difference_that_comes_to_nothing_is_no_fault(seed: int) -> None:
+    """A filter between pressures that are read to 250 Pa: its slope is infinite where they agree.
+
+    Air goes at 4e-3 to 1.1e-2 m^3/s, so that 8 to 60 kPa stand across it, and now and then at 3e-4,
+    where these are 44 Pa.
+    """
+    c, draw = _filter(), np.random.default_rng(seed)
+    t = np.arange(0.0, 700.0, 0.2)
+    wanted = np.repeat(draw.uniform(4e-3, 1.1e-2, 40), 100)[: len(t)]
+    wanted[np.arange(len(t)) // 100 % 7 == 5] = 3e-4
+    keep = math.exp(-0.2)
+    flow = np.array(list(accumulate(wanted, lambda q, new: keep * q + (1.0 - keep) * new)))
+    before = 7e5 + 2e4 * np.sin(0.01 * t)
+    behind = before - (flow / _KF) ** 2 + 300.0
+    told = {"q": flow + 1e-4 * draw.normal(size=len(t))}
+    for name, pressure in (("p1", before), ("p2", behind)):
+        told[name] = np.round((pressure + 400.0 * draw.normal(size=len(t))) / 250.0) * 250.0
+    engine = c.engine().configured(bandwidth=0.25)
+    samples = np.column_stack([told[k.path] for k in engine.signals])
+    said = c.diagnosis(engine).update(t, engine.run(samples), samples)
+    assert [v for v in said if v.event in ("fault", "update")] == []
+
+
+_KF = 4.5e-5  # m^3/s.Pa^-0.5
+
+
+@cache
+def _filter() -> Compilation:
+    return compiled(
+        "model M { input use : m^3/s unknown; param kf = 4.5e-5 m^3/s.Pa^-0.5 +- 10%; Se:p1 -> 1:f"
+        "; f -> R:kf { f = kf*ssqrt(e) }; f -> Df:q; f -> 0:line; line -> De:p2"
+        "; line -> Sf:out = use }"
+    ).with_options(rate=5.0)
