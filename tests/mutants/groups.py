@@ -66,3 +66,17 @@ def mirror(test: str, module: str) -> bool:
     """
     place = Path(module)
     return Path(test).stem.startswith((f"test_{place.stem}", f"test_{place.parent.name[:5]}"))
+
+
+def own(test: str, module: str) -> bool:
+    """Whether a test file is in the room of tests/unit that belongs to the folder of a module.
+
+    >>> own("tests/unit/runtime/monitoring/test_clock.py", "bondgraph/runtime/monitoring/clock.py")
+    True
+    >>> own("tests/unit/passes/test_lower.py", "bondgraph/passes/lowering/filter.py")
+    True
+    >>> own("tests/paper/test_paper.py", "bondgraph/passes/lowering/filter.py")
+    False
+    """
+    rooms = [Path("tests/unit", p.relative_to("bondgraph")) for p in Path(module).parents[:-2]]
+    return Path(test).parent == next((r for r in rooms if (ROOT / r).is_dir()), None)

@@ -1,21 +1,25 @@
 """Runs pytest again and again, each time in a fork that has the heavy packages already.
 
-A line of standard input is a JSON list: seconds of processor time at most, and the arguments of
-pytest. The answer is a line with its status, `timed out` when it took longer, or waited for very
-long. Importing the packages takes longer than most mutants live.
+A line of standard input is a JSON list: how many seconds of processor time each file of tests takes
+without a mutant, and the arguments of pytest. The answer is a line with its status, `timed out`
+when a test took several times as long as its file should, or waited for very long. Importing the
+packages takes longer than most mutants live.
 """
 
 from __future__ import annotations
 
 import importlib
 import json
+import math
 import os
 import resource
 import signal
 import sys
 import time
 
-_PACKAGES = "jinja2 networkx numpy pytest scipy.optimize scipy.stats sympy".split()
+import pytest
+
+_PACKAGES = "jinja2 networkx numpy scipy.optimize scipy.stats sympy".split()
 _MEMORY = 3 << 30  # bytes; a mutant may make a loop endless
 
 
@@ -28,20 +32,36 @@ def main() -> None:
         child = os.fork()
         if child == 0:
             os._exit(_pytest(seconds, arguments))
-        print(_waited(child, time.monotonic() + 60.0 + 10.0 * seconds), flush=True)
+        most = 120.0 + 30.0 * sum(seconds.values())
+        print(_waited(child, time.monotonic() + most), flush=True)
 
 
-def _pytest(seconds: int, arguments: list[str]) -> int:
+class _Limit:
+    """Gives each test its time: an endless loop in the first is not one for as long as all take."""
+
+    def __init__(self, seconds: dict[str, float]) -> None:
+        self.seconds = seconds
+
+    def more(self, seconds: float) -> None:
+        """So many seconds of processor time from here on."""
+        _, hard = resource.getrlimit(resource.RLIMIT_CPU)
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(time.process_time() + seconds), hard))
+
+    def pytest_runtest_setup(self, item: pytest.Item) -> None:
+        """Before each test."""
+        self.more(10.0 + 3.0 * self.seconds.get(item.nodeid.split("::")[0], 0.0))
+
+
+def _pytest(seconds: dict[str, float], arguments: list[str]) -> int:
     """Pytest without a word, in a group of processes of its own, with an end to what it takes."""
-    import pytest
-
     os.setsid()
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+    limit = _Limit(seconds)
+    limit.more(30.0)  # for what is imported
     silent = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
         os.dup2(silent, stream)
-    return int(pytest.main(arguments))
+    return int(pytest.main(arguments, plugins=[limit]))
 
 
 def _waited(child: int, until: float) -> str:

@@ -8,7 +8,7 @@ import pytest
 
 from tests.mutants.groups import GROUPS, ROOT, asked, modules
 from tests.mutants.mutate import mutants
-from tests.mutants.run import Reach, chosen, drawn, judged
+from tests.mutants.run import Answer, Reach, drawn, judged, rounds, share
 
 
 def changes(text: str) -> list[str]:
@@ -81,17 +81,27 @@ def test_a_longer_draw_has_the_shorter_one_in_it() -> None:
     assert few != drawn(4, 2, ["causality", "oracle"])
 
 
-def test_tests_that_reach_the_function_are_asked_its_own_first() -> None:
+def test_tests_that_reach_the_function_are_asked_those_of_its_name_and_room_first() -> None:
     (mutant,) = mutants("bondgraph/passes/elimination/chaining.py", b"def f(): x = a < b")
     here = frozenset({"bondgraph/passes/elimination/chaining.py:f"})
-    own = Reach("tests/unit/passes/test_chaining.py", 9.0, here)
+    named = Reach("tests/unit/passes/test_chaining.py", 9.0, here)
+    near = Reach("tests/unit/passes/test_near.py", 5.0, here)
     fast, slow = Reach("tests/x/test_fast.py", 1.0, here), Reach("tests/x/test_slow.py", 99.0, here)
     other = Reach("tests/x/test_other.py", 1.0, frozenset())
-    assert chosen(mutant, [slow, other, fast, own], 20.0) == [own, fast]
-    assert chosen(mutant, [slow, other], 20.0) == [slow]
-    near = Reach("tests/unit/passes/test_near.py", 1.0, frozenset())
-    assert chosen(mutant, [other, near], 20.0) == [near]
+    found = rounds(mutant, [slow, other, fast, near, named], 20.0)
+    assert found == [[named], [near], [fast]]
+    assert rounds(mutant, [slow, other], 20.0) == [[], [], [slow]]
+    unreached = Reach("tests/unit/passes/test_near.py", 1.0, frozenset())
+    assert rounds(mutant, [other, unreached], 20.0) == [[], [unreached], []]
     assert "tests/paper/test_paper.py" in asked()
+
+
+def test_the_share_of_its_own_tests_is_of_what_they_could_kill() -> None:
+    """Wilson's interval of 8 of 10, as Agresti and Coull (1998) compute it: 0.490 to 0.943."""
+    (mutant,) = mutants("m.py", b"def f(): x = a < b")
+    outcomes = ["killed"] * 7 + ["timed out", "killed by others", "survived"] + ["equivalent"] * 5
+    found = [Answer(mutant, "", outcome, ()) for outcome in outcomes]
+    assert share(found) == pytest.approx((0.8, 0.490, 0.943), abs=5e-4)
 
 
 def test_every_equivalent_mutant_is_still_one() -> None:
