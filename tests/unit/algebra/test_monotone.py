@@ -12,7 +12,7 @@ import pytest
 from bondgraph.algebra.derivative import partial
 from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.interpreter import newton
-from bondgraph.algebra.monotone import direction
+from bondgraph.algebra.monotone import direction, slope_range
 from bondgraph.algebra.numeric import evaluate
 from bondgraph.ir.expr import Expr, Kind, Pool
 
@@ -145,3 +145,26 @@ def test_what_has_a_value_for_positive_numbers_alone_has_no_root_beyond_the_pole
     pole = p.neg(p.power(x, -1))
     assert direction(p, plus(x, pole), x, lambda _: None) is None
     assert direction(p, plus(x, pole, p.fn("log", x)), x, lambda _: None) == 1
+
+
+@pytest.mark.parametrize(
+    ("points", "low", "high"),
+    [
+        # slopes by hand: 2 and 1/2, and nothing beyond the ends
+        (((0, 0), (1, 2), (3, 3)), 0.0, 2.0),
+        (((0, 0), (2, 1), (3, 3)), 0.0, 2.0),
+        (((0, 0), (1, -2), (3, -3)), -2.0, 0.0),
+        (((0, 0), (1, 2), (3, -4)), -3.0, 2.0),
+    ],
+)
+def test_the_slopes_of_a_table_are_those_between_its_points(
+    points: tuple[tuple[int, int], ...], low: float, high: float
+) -> None:
+    p.tables["bent.csv"] = tuple((Fraction(u), Fraction(v)) for u, v in points)
+    law = p.fn("table:bent.csv", x)
+    found = slope_range(p, law, x, lambda _: None)
+    assert found is not None and (found.low, found.high) == (low, high)
+    # with as much added as it falls at most it may stand still, with more it grows
+    assert direction(p, p.add((1, law), (int(-low), x)), x, lambda _: None) is None
+    assert direction(p, p.add((1, law), (int(1 - low), x)), x, lambda _: None) == 1
+    assert direction(p, p.add((1, law), (int(-1 - high), x)), x, lambda _: None) == -1

@@ -135,6 +135,33 @@ def test_the_remainder_is_the_one_of_a_division_of_polynomials() -> None:
     assert is_zero(pool.sub(found.expr, by_hand))
 
 
+def test_two_torn_variables_drop_out_of_three_rows() -> None:
+    """t' + 2 s + y, 3 t + s' + z and t + s + w give y' - 3 y + z' - 2 z - w'' + 6 w.
+
+    By hand: t = -s - w. The sum of the first two is then s = y + z - w' - 3 w, which is put into
+    the second one, s' - 3 s - 3 w + z.
+    """
+    pool = Pool()
+    t, s = pool.symbol("t", Kind.TEAR), pool.symbol("s", Kind.TEAR)
+    y, z, w = (pool.symbol(n, Kind.SENSOR) for n in "yzw")
+    work = Operators(pool)
+    equations = [
+        pool.add((1, pool.der(t)), (2, s), (1, y)),
+        pool.add((3, t), (1, pool.der(s)), (1, z)),
+        pool.add((1, t), (1, s), (1, w)),
+    ]
+    rows = [work.linear((k,), equation) for k, equation in enumerate(equations)]
+    assert None not in rows
+    ((numbers, found),) = work.relations([row for row in rows if row is not None])
+    assert sorted(set(numbers)) == [0, 1, 2]
+    assert set(work.spent) == {t, s}
+    by_hand = pool.add(
+        (1, pool.der(y)), (-3, y), (1, pool.der(z)), (-2, z), (-1, pool.der(w, 2)), (6, w)
+    )
+    left = [normalise(pool, pool.add((1, found), (sign, by_hand))).terms for sign in (1, -1)]
+    assert () in left
+
+
 def test_an_integral_of_a_torn_variable_is_differentiated_away() -> None:
     """t + 3 int(t + y) + z, differentiated, is t' + 3 t + 3 y + z'."""
     pool = Pool()

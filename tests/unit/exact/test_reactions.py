@@ -91,6 +91,20 @@ def test_any_seed_finds_what_a_relation_depends_on(seed: int) -> None:
     assert {s.symbol.name: n for s, n in found.orders.items()} == {"u": 0, "i": 1}
 
 
+def test_a_relation_is_moved_by_what_is_in_its_own_loop() -> None:
+    """u - R i holds on a healthy plant, not with another R; the other loop has nothing in it."""
+    c = compiled(
+        "model M { param R = 2; param S = 3\n 1:a { <- Se:u; -> R:ra = R; -> Df:i }\n"
+        "1:b { <- Se:w; -> R:rb = S; -> Df:j } }"
+    )
+    pool = c.graph.pool
+    u, i = (pool.symbol(n, k) for n, k in (("u", Kind.INPUT), ("i", Kind.SENSOR)))
+    R, S = (next(v.symbol for v in c.graph.values if v.name == n) for n in "RS")
+    relation = pool.sub(u, pool.mul(R, i))
+    reactions = Reactions(Plant(c.graph), 1)
+    assert [reactions.moves(relation, *f) for f in ((R,), (S,), (R, S))] == [True, False, True]
+
+
 #: A cylinder with a valve to a supply and to the air: the pressure of the air matters only while
 #: air goes out and does not choke, between one and 1.9 times that pressure.
 _VALVE = """bg 1

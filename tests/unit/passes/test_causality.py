@@ -9,7 +9,8 @@ import pytest
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.expr import Pool
-from bondgraph.passes.causality.assign import assign
+from bondgraph.passes.causality.assign import _greedy, assign
+from bondgraph.passes.causality.cores import oblige
 from bondgraph.passes.causality.repair import Matching
 from bondgraph.passes.causality.rules import demands, network
 from bondgraph.passes.causality.strokes import Strokes
@@ -110,6 +111,22 @@ def test_a_law_that_is_not_linear_in_one_case_is_used_as_it_is_written() -> None
 def test_bonds_without_junctions_and_chains_of_equals(text: str, at: list[str]) -> None:
     graph = causal(text)
     assert names(graph, tuple(receivers(graph))) == at
+
+
+@pytest.mark.parametrize("text", ["1:v -> I:a; v -> I:b", "1:v <- I:a; v <- I:b"])
+@pytest.mark.parametrize("preference", ["integral", "derivative"])
+def test_a_refused_wish_that_follows_from_others_is_no_dead_end(text: str, preference: str) -> None:
+    """One of two inertias of one speed has to follow: no search is needed to find that out.
+
+    Both ways of drawing the bonds, as the stroke that stands is 0 in one and 1 in the other.
+    """
+    graph = build(text)
+    net, at = network(graph)
+    musts, wishes = demands(graph, at, preference)[:2]  # type: ignore[arg-type]
+    strokes = Strokes(net)
+    assert oblige(strokes, musts) is None
+    assert _greedy(strokes, wishes)
+    assert sum(strokes.value[w.bond] == w.value for w in wishes) == 1
 
 
 def test_fields_are_assigned_port_by_port() -> None:

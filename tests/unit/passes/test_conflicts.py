@@ -129,11 +129,22 @@ def test_what_each_member_does_on_the_way(case: str, roles: dict[str, str]) -> N
     assert {name: told[name] for name in roles} == roles
 
 
-@pytest.mark.parametrize(("line", "hose"), [("line", "hose"), ("link", "loss"), ("loss", "link2")])
-def test_the_lines_proposed_can_be_written_into_the_model(line: str, hose: str) -> None:
+@pytest.mark.parametrize(
+    ("line", "hose", "link", "loss"),
+    [
+        ("line", "hose", "link", "loss"),
+        ("link", "loss", "link2", "loss2"),  # a word that is taken gets a number, from two on
+        ("loss", "link", "link2", "loss2"),
+        ("loss", "link2", "link", "loss2"),
+    ],
+)
+def test_the_lines_proposed_can_be_written_into_the_model(
+    line: str, hose: str, link: str, loss: str
+) -> None:
     text = CASES["pumps"][0].replace("; ", "\n").replace("line", line).replace("hose", hose)
     (error,) = findings(text)
     (first, *_) = re.findall(r"\n    (.*)", error.help)
+    assert re.findall(r"[01R]:(\w+)", first) == [link, loss]
     bond = first.split(" -> ")[0]  # the name of the source whose bond gets the junction
     mended = re.sub(rf"Sf:{bond} -> [^\n]*", f"Sf:{bond}\n{first}", text)
     assert mended != text
@@ -165,6 +176,23 @@ def test_a_loop_is_proved_by_two_cases() -> None:
         "If GY:a imposes the flow of 1:x, 1:y gets two flows, by GY:a and GY:b; if not, 1:y gets "
         "no flow. Each of these mends it:\n"
     )
+
+
+def test_where_no_single_bond_proves_it_the_first_junction_stands_for_all() -> None:
+    """Three 0-junctions, each bonded to all of four 1-junctions.
+
+    A bond is strong at both of its junctions or at none, so that strong bonds would pair each 0
+    with a 1 of its own, and one is left over. One pair taken away leaves two and three, weak at one
+    bond leaves two others: whichever bond is looked at, nothing follows from its stroke.
+    """
+    zeros, ones = ["a", "b", "c"], ["p", "q", "r", "s"]
+    nodes = [f"0:{n}" for n in zeros] + [f"1:{n}" for n in ones]
+    graph = build("; ".join(nodes + [f"{a} -> {p}" for a in zeros for p in ones]))
+    net, at = network(graph)
+    (core,) = cores(net, demands(graph, at, "integral")[0])
+    told = explanation(graph, net, core)
+    assert told.physics.endswith("these bonds are too few or too many.")
+    assert told.meet == net.name[0] == min(core.nodes(net))
 
 
 def test_what_instances_repeat_is_told_once_and_mended_in_all() -> None:

@@ -141,6 +141,27 @@ def test_costs_decide() -> None:
         place(Placing(model, places, faulty=True))
 
 
+@pytest.mark.parametrize(
+    ("costs", "sensors"),
+    [
+        # of x1 to x4 any two but x1 with x2 are enough: x1, x3 and x5 are left out
+        ([5.0, 1.0, 2.0, 1.5, 0.1], (1, 3)),
+        # x4 is left out first; x1 and x2 alone would not do, so that x3 has to stay
+        ([1.0, 2.0, 3.0, 4.0, 0.1], (0, 2)),
+        ([1.0, 1.0, 1.0, 1.0, 1.0], (0, 2)),  # of equally dear ones the last
+    ],
+)
+def test_without_a_proof_the_dearest_that_are_not_needed_are_left_out(
+    costs: list[float], sensors: tuple[int, ...]
+) -> None:
+    model = read_table(Source("linear.csv", LINEAR), Report())
+    assert model is not None
+    placing = Placing(model, [Candidate(f"x{i + 1}", i, c) for i, c in enumerate(costs)])
+    found = place(placing, rounds=0)
+    assert (found.sensors, found.least) == (sensors, False)
+    assert found.cost == sum(costs[k] for k in sensors)
+
+
 @settings(max_examples=50, deadline=None)
 @given(structures(5, 4), st.data())
 def test_placing_is_adding_equations(rows: list[frozenset[int]], data: st.DataObject) -> None:
