@@ -45,12 +45,13 @@ class Reach(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """What the tests say of a mutant, and which of them were asked."""
+    """What the tests say of a mutant, how many were asked if need be, and how many could be."""
 
     mutant: Mutant
     group: str
     outcome: str
-    tests: tuple[str, ...]
+    asked: int = 0
+    known: int = 0
 
 
 def drawn(count: int, seed: int, groups: list[str]) -> list[tuple[str, Mutant]]:
@@ -88,11 +89,11 @@ def reached(test: str) -> Reach | None:
     return Reach(test, found["seconds"], frozenset(found["functions"]))
 
 
-def rounds(mutant: Mutant, reaches: list[Reach], budget: float) -> list[list[Reach]]:
-    """The tests to ask, those that reach the function: of its name, of its room, the others.
+def rounds(mutant: Mutant, reaches: list[Reach]) -> list[list[Reach]]:
+    """The tests that reach the function: of its name, of its room, the others.
 
     Each of the three may be empty. What only runs in processes of their own is seen by none: then
-    those of its room are asked.
+    those of its room may be asked.
     """
     name = f"{mutant.module}:{mutant.function}"
     room = [r for r in reaches if own(r.test, mutant.module)]
@@ -100,7 +101,7 @@ def rounds(mutant: Mutant, reaches: list[Reach], budget: float) -> list[list[Rea
     named = [r for r in room if r in fits and mirror(r.test, mutant.module)]
     room = [r for r in room if r in fits and r not in named]
     others = [r for r in fits if r not in named and r not in room]
-    return [within(budget, tests) for tests in (named, room, others)]
+    return [named, room, others]
 
 
 def within(budget: float, tests: list[Reach]) -> list[Reach]:
@@ -182,15 +183,16 @@ def answers(
 
     def answer(group: str, mutant: Mutant) -> Answer:
         if mutant.key in judged():
-            return Answer(mutant, group, "equivalent", ())
-        tests = rounds(mutant, reaches, budget)
+            return Answer(mutant, group, "equivalent")
+        known = rounds(mutant, reaches)
+        tests = [within(budget, round_) for round_ in known]
         copy = copies.get()
         try:
             outcome = copy.ask(mutant, tests)
         finally:
             copies.put(copy)
         say(f"{outcome}: {mutant.module}:{mutant.line}: {mutant.change}")
-        return Answer(mutant, group, outcome, tuple(r.test for round_ in tests for r in round_))
+        return Answer(mutant, group, outcome, sum(map(len, tests)), sum(map(len, known)))
 
     with TemporaryDirectory(prefix="mutants") as folder:
         for job in range(jobs):
@@ -238,7 +240,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--groups", default=",".join(GROUPS), help="of: %(default)s")
-    parser.add_argument("--budget", type=float, default=60.0, help="seconds of tests a mutant")
+    parser.add_argument("--budget", type=float, default=60.0, help="seconds of tests a round")
     parser.add_argument("--least", type=float, default=0.0, help="share to be killed by own tests")
     parser.add_argument("--own", action="store_true", help="ask the tests of such rooms only")
     parser.add_argument("--again", action="store_true", help="only those that survived last time")
@@ -254,8 +256,9 @@ def main() -> int:
     found = answers(wanted, reaches, options.jobs, options.budget)
     say(f"\nseed {options.seed}, {len(found)} mutants\n\n{table(found)}")
     survived = [a for a in found if a.outcome in ("survived", "killed by others")]
-    for mutant, _, outcome, tests in survived:
-        say(f"\n{mutant.module}:{mutant.line} in {mutant.function}: {len(tests)} test files")
+    for mutant, _, outcome, some, known in survived:
+        place = f"{mutant.module}:{mutant.line} in {mutant.function}"
+        say(f"\n{place}: {some} of {known} test files were asked within the budget")
         say(f"    {mutant.text}\n    {mutant.change}\n    {outcome}")
     last.parent.mkdir(parents=True, exist_ok=True)
     last.write_text(json.dumps([a.mutant.key for a in survived], indent=0), encoding="utf-8")

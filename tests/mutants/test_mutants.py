@@ -8,7 +8,7 @@ import pytest
 
 from tests.mutants.groups import GROUPS, ROOT, asked, modules
 from tests.mutants.mutate import mutants
-from tests.mutants.run import Answer, Reach, drawn, judged, rounds, share
+from tests.mutants.run import Answer, Reach, drawn, judged, rounds, share, within
 
 
 def changes(text: str) -> list[str]:
@@ -75,6 +75,12 @@ def test_every_group_has_modules_with_mutants(group: str) -> None:
     assert sum(len(mutants(m, (ROOT / m).read_bytes())) for m in modules(group)) > 500
 
 
+def test_no_module_is_in_two_groups() -> None:
+    """Its mutants would be drawn, and counted, twice."""
+    names = [name for group in GROUPS for name in modules(group)]
+    assert len(names) == len(set(names))
+
+
 def test_a_longer_draw_has_the_shorter_one_in_it() -> None:
     few, many = drawn(4, 1, ["causality", "oracle"]), drawn(8, 1, ["causality", "oracle"])
     assert len(few) == 4 and len(many) == 8 and set(few) < set(many)
@@ -88,19 +94,22 @@ def test_tests_that_reach_the_function_are_asked_those_of_its_name_and_room_firs
     near = Reach("tests/unit/passes/test_near.py", 5.0, here)
     fast, slow = Reach("tests/x/test_fast.py", 1.0, here), Reach("tests/x/test_slow.py", 99.0, here)
     other = Reach("tests/x/test_other.py", 1.0, frozenset())
-    found = rounds(mutant, [slow, other, fast, near, named], 20.0)
-    assert found == [[named], [near], [fast]]
-    assert rounds(mutant, [slow, other], 20.0) == [[], [], [slow]]
+    assert rounds(mutant, [slow, other, fast, near, named]) == [[named], [near], [slow, fast]]
+    assert rounds(mutant, [slow, other]) == [[], [], [slow]]
     unreached = Reach("tests/unit/passes/test_near.py", 1.0, frozenset())
-    assert rounds(mutant, [other, unreached], 20.0) == [[], [unreached], []]
+    assert rounds(mutant, [other, unreached]) == [[], [unreached], []]
     assert "tests/paper/test_paper.py" in asked()
+    # the fastest that take no longer together, one of them in any case
+    assert within(20.0, [slow, near, fast, named]) == [fast, near, named]
+    assert within(8.0, [slow, near, fast, named]) == [fast, near]
+    assert within(20.0, [slow]) == [slow] and within(20.0, []) == []
 
 
 def test_the_share_of_its_own_tests_is_of_what_they_could_kill() -> None:
     """Wilson's interval of 8 of 10, as Agresti and Coull (1998) compute it: 0.490 to 0.943."""
     (mutant,) = mutants("m.py", b"def f(): x = a < b")
     outcomes = ["killed"] * 7 + ["timed out", "killed by others", "survived"] + ["equivalent"] * 5
-    found = [Answer(mutant, "", outcome, ()) for outcome in outcomes]
+    found = [Answer(mutant, "", outcome) for outcome in outcomes]
     assert share(found) == pytest.approx((0.8, 0.490, 0.943), abs=5e-4)
 
 
