@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from bondgraph.exact.evaluate import evaluate, sensitivities
+from bondgraph.exact.evaluate import Incremental, evaluate, sensitivities
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.signal_algebra import Mixed
@@ -198,3 +198,31 @@ def test_an_integral_on_a_trajectory_begins_at_the_declared_value() -> None:
     assert evaluate([r], t, 2)[0][1] != 0
     seen = sensitivities(r, t)
     assert {k.symbol.name: v for k, v in seen.orders.items()} == {"w1": 1, "w2": -1, "T": 0}
+
+
+class Otherwise(Random):
+    """The same signals, but for those that have the values of another point."""
+
+    def __init__(self, *changed: Expr) -> None:
+        super().__init__()
+        self.changed = changed
+
+    def value(self, symbol: Expr) -> Series:
+        own = super().value(symbol)
+        return [2 * c for c in own] if symbol in self.changed else own
+
+
+@pytest.mark.parametrize("changed", [(a,), (x,), (a, y), (b,), ()])
+def test_what_rests_on_a_change_is_computed_anew_however_far_above(
+    changed: tuple[Expr, ...],
+) -> None:
+    """Five nodes are between a and the root, two between y and it; b is nowhere in it."""
+    inner = add((1, mul(a, x)), (1, pool.one))
+    root = add((1, mul(D(mul(inner, inner)), y)), (3, pool.power(y, -1)))
+    n = 2
+    work = Incremental(root, Random(), n)
+    other = Otherwise(*changed)
+    assert work.anew(changed, other) == evaluate([root], other, n)[0]
+    assert work.anew((), Random()) == evaluate([root], Random(), n)[0]  # nothing was kept of it
+    if {a, x, y}.intersection(changed):
+        assert work.anew(changed, other) != work.anew((), Random())
