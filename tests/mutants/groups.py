@@ -62,6 +62,10 @@ def _text(test: str) -> str:
     return (ROOT / test).read_text(encoding="utf-8") if (ROOT / test).is_file() else ""
 
 
+def _imports(test: str, module: str) -> bool:
+    return f"from {module.removesuffix('.py').replace('/', '.')} import" in _text(test)
+
+
 def mirror(test: str, module: str) -> bool:
     """Whether a test file belongs to a module: by its name, that of its folder, or an import.
 
@@ -73,14 +77,12 @@ def mirror(test: str, module: str) -> bool:
     False
     """
     place = Path(module)
-    dotted = module.removesuffix(".py").replace("/", ".")
-    if f"from {dotted} import" in _text(test):
-        return True
-    return Path(test).stem.startswith((f"test_{place.stem}", f"test_{place.parent.name[:5]}"))
+    names = (f"test_{place.stem}", f"test_{place.parent.name[:5]}")
+    return _imports(test, module) or Path(test).stem.startswith(names)
 
 
 def own(test: str, module: str) -> bool:
-    """Whether a test file is in the room of tests/unit that belongs to the folder of a module.
+    """Whether a test is of the room of tests/unit that belongs to the folder of a module.
 
     >>> own("tests/unit/runtime/monitoring/test_clock.py", "bondgraph/runtime/monitoring/clock.py")
     True
