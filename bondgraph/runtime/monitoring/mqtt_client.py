@@ -171,7 +171,8 @@ class Link:
         except OSError as error:
             self._why = error.strerror or str(error)
             if isinstance(error, ssl.SSLError):
-                self._why = getattr(error, "verify_message", "") or f"{error.reason or error}"
+                reason = getattr(error, "reason", None)  # what no handshake made has none
+                self._why = getattr(error, "verify_message", "") or f"{reason or error}"
             cut = isinstance(error, _CUT_OFF)
             self._cut += cut
             if self._at.secure and (self._cut >= _CUT if cut else isinstance(error, ssl.SSLError)):
