@@ -54,6 +54,18 @@ def test_a_long_sum_is_broken_and_a_short_one_is_not() -> None:
     assert "mfrac" in set_in(below, 4)[0]  # 1/R ( ... )
 
 
+@pytest.mark.parametrize("below", [1, 2, 3])
+def test_a_factor_below_that_nothing_opens_is_a_fraction_of_its_own(below: int) -> None:
+    """In a line that holds one letter each factor is a piece, and those below are divided by."""
+    p = Pool()
+    x, y, R = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR), p.symbol("R", Kind.PARAM)
+    product = p.mul(x, R, p.power(y, -below))
+    found = set_in(product, 0.7)
+    assert len(found) == 3
+    wanted = VALUES["x"] * VALUES["R"] / VALUES["y"] ** below
+    assert evaluate(found, VALUES) == pytest.approx(wanted)
+
+
 def test_named_parts_stand_for_themselves_and_are_set_on_their_own_line() -> None:
     p = Pool()
     x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
