@@ -106,6 +106,13 @@ def test_a_derivative_is_that_of_the_course(name: str, order: int) -> None:
     assert value == pytest.approx(expected, rel=1e-9, abs=1e-12)
 
 
+def test_the_first_derivative_of_a_power_is_written_as_it_is_taught() -> None:
+    """(x^-3/2)' = -3/2 x^-5/2 x', without a division by x."""
+    falling, e = p.fn("pow", x, p.num(Fraction(-3, 2))), Fraction(-3, 2)
+    taught = p.mul(p.num(e), p.fn("pow", x, p.num(e - 1)), p.der(x))
+    assert differentiate(p, falling) is taught
+
+
 def test_what_does_not_move_has_no_derivative() -> None:
     fixed = p.mul(p.fn("sin", a), p.power(a, -2), p.choose(on, a, p.one))
     assert differentiate(p, fixed) is p.zero

@@ -187,3 +187,14 @@ def test_a_cut_search_still_chooses_for_all() -> None:
     for i, j in combinations(range(len(model.faults)), 2):
         assert any(i in s and j not in s for s in seen)
         assert any(j in s and i not in s for s in seen)
+
+
+def test_a_long_search_tells_how_far_it_is() -> None:
+    """Nine equations in three unknowns: all sets of four, 126, and the whole of the search."""
+    heard: list[tuple[float, int]] = []
+    found = mso_sets(model_of([{0, 1, 2}] * 9), progress=lambda done, n: heard.append((done, n)))
+    assert found.complete and len(found.members) == 126
+    shares, counts = zip(*heard, strict=True)
+    assert list(shares) == sorted(set(shares)) and shares[0] > 0.0
+    assert shares[-1] == pytest.approx(1.0)
+    assert list(counts) == sorted(counts) and counts[-1] == 126
