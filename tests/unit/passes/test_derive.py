@@ -19,7 +19,7 @@ from bondgraph.algebra.symbolic import t
 from bondgraph.algebra.sympy_elimination import Loop, Unshown, factor_of, solve_for
 from bondgraph.derivations import Derivations, UnknownForm
 from bondgraph.ir.functions import FUNCTIONS
-from bondgraph.passes.relation.derive import derive
+from bondgraph.passes.relation.derive import _divisors, derive
 
 ROOT = Path(__file__).resolve().parents[3]
 MODELS = sorted((ROOT / "models").glob("*.bg"))
@@ -219,6 +219,13 @@ def test_equations_are_solved_where_they_have_one_solution() -> None:
     for equation in (y - x**2, y - x - sp.exp(x), y + 0 * x):
         with pytest.raises(Unshown):
             solve_for(equation, x)
+
+
+def test_what_may_be_zero_is_told_where_it_divides() -> None:
+    """What moves is; a sum of parameters may be zero where it is made on the way, by itself not."""
+    value = u / a + u / (a + b) + u / y + a / (y + b) ** 2
+    assert set(_divisors(value)) == {y, y + b}
+    assert set(_divisors(value, sums=True)) == {y, y + b, a + b}
 
 
 def test_rows_of_differential_loops_are_divided() -> None:
