@@ -93,6 +93,26 @@ def test_a_declared_initial_value_is_told() -> None:
     assert torque == [t.value(s["K"])[0] * q for q in twist[:N]]
 
 
+def test_a_spring_that_is_held_keeps_its_twist() -> None:
+    """Without its rate nothing ties the speeds together; its torque 2 K stays, the rest goes on."""
+    model = graph(FLEXIBLE.replace("q0 = 0", "q0 = 2"))
+    plant = Plant(model)
+    ((start, state, two),) = plant.declared_starts()
+    held = plant.holding({state: two})
+    assert held.held == (start,)
+    gone = {r.variable for r in plant.assembly.rates} - {r.variable for r in held.assembly.rates}
+    assert gone == {plant.assembly.place[state][0]}
+    t, s = held.trajectory(2, N), symbols(model)
+    torque = [
+        t.value(s["T"])[n] - t.value(s["J"])[0] * dw
+        for n, dw in enumerate(rate(t.value(s["w1"]))[:N])
+    ]
+    assert torque == [2 * t.value(s["K"])[0]] + [0] * (N - 1)
+    load = [t.value(s["m"])[0] * dw for dw in rate(t.value(s["w2"]))[:N]]
+    assert load == torque
+    assert any(x != y for x, y in zip(t.value(s["w1"]), t.value(s["w2"]), strict=True))
+
+
 def residual_of_motor(model: str = MOTOR) -> tuple[Plant, Expr]:
     g = graph(model)
     p, s = g.pool, symbols(g)
