@@ -10,7 +10,7 @@ from scipy.signal import lfilter
 
 from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.noise import noise
-from bondgraph.runtime.diagnosis.row_averages import LAGS, lasting, with_before
+from bondgraph.runtime.diagnosis.row_averages import LAGS, _weights, lasting, with_before
 from bondgraph.runtime.diagnosis.rows import Average, Row, all_of, averaged
 from bondgraph.runtime.diagnosis.tuning import Limit, height
 from bondgraph.runtime.log import Array
@@ -157,3 +157,13 @@ def test_pieces_of_a_row_have_its_average() -> None:
     assert joined.doubt == pytest.approx(doubt.mean(axis=0))
     assert len([name for name in Limit._fields if name.startswith("before")]) == LAGS
     assert Limit._fields.index("before1") == 8
+
+
+@pytest.mark.parametrize(("rows", "last"), [(27, 0.0), (28, 1.0), (60, 1.0)])
+def test_a_weight_needs_six_rows_for_itself_and_each_before_it(rows: int, last: float) -> None:
+    """Four rows up and four down: each takes off what the fourth before it has added.
+
+    The first four rows have none: of 28 there are 24 left, which is six for each of four weights.
+    """
+    values = np.resize([1.0] * 4 + [-1.0] * 4, rows)
+    assert _weights(values)[3] == pytest.approx(last, abs=1e-9)

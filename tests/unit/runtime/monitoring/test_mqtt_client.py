@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from bondgraph.runtime.log import LogError
-from bondgraph.runtime.monitoring.mqtt_client import Address, Link
+from bondgraph.runtime.monitoring.mqtt_client import Address, Link, Publisher
 
 pytest.importorskip("paho.mqtt.client")
 
@@ -160,3 +160,18 @@ def test_a_broker_that_wants_a_certificate_says_so_afterwards(text: str, why: st
     link._logged(link.client, None, None, text)
     told = [] if why is None else [f"no TLS with the broker: {why}"]
     assert [e.message for e in refused] == told
+
+
+@pytest.mark.parametrize("gone", ["", '{"state": "gone"}'])
+def test_a_publisher_leaves_word_for_the_case_that_it_is_gone(
+    gone: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The broker keeps it beside the topic of the verdicts; without words it keeps nothing."""
+    wills: list[tuple[object, ...]] = []
+    monkeypatch.setattr(Link, "start", lambda self: None)
+    monkeypatch.setattr(
+        "paho.mqtt.client.Client.will_set",
+        lambda self, topic, words, qos, retain: wills.append((topic, words, qos, retain)),
+    )
+    Publisher(Address("broker.lan", 1883, "motor/verdicts", None, False), "me", gone=gone)
+    assert wills == ([("motor/verdicts/monitor", gone, 1, True)] if gone else [])
