@@ -13,6 +13,7 @@ from bondgraph.cli.log_options import form_of, note, operating_of
 from bondgraph.cli.options import realising
 from bondgraph.cli.terminal_layout import prose, width
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.moment import moment
 from bondgraph.text.numerals import listed, plural
 
 if TYPE_CHECKING:
@@ -214,11 +215,17 @@ def _message(model: str, logs: Sequence[WatchedLog]) -> str:
 def _row(log: WatchedLog, name: str) -> tuple[str, ...]:
     span = ("", "", "")
     if log.start is not None and log.end is not None:
-        span = (f"{log.start:.1f}", f"{log.end:.1f}", f"{log.end - log.start:.1f}")
+        span = (_moment(log.start, 1), _moment(log.end, 1), f"{log.end - log.start:.1f}")
     alarm = log.last_alarm
-    since = "" if alarm is None or alarm.since is None else f"{alarm.since:.3f}"
+    since = "" if alarm is None or alarm.since is None else _moment(alarm.since, 3)
     worst = "" if log.level is None else f"{log.residual} {log.level:.2g}x"
     return (name, *span, _verdict(log), _class(log), since, worst)
+
+
+def _moment(seconds: float, digits: int) -> str:
+    """A time of a table whose head has the unit; a date and time say themselves what they are."""
+    words = moment(seconds)
+    return f"{seconds:.{digits}f}" if words.endswith(" s") else words
 
 
 def _verdict(log: WatchedLog) -> str:

@@ -41,6 +41,7 @@ from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.runtime.monitoring.verdict import Candidate, Verdict
+from bondgraph.text.moment import moment
 from bondgraph.text.numerals import listed
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
@@ -216,7 +217,7 @@ class Diagnosis:
             levels = self._detection.levels()
             out.append(
                 Verdict("fault" if first else "update", row.time, since, levels, (one.signal,),
-                        (candidate,), message=f"{one.text}, since {one.since:.3f} s")
+                        (candidate,), message=f"{one.text}, since {moment(one.since)}")
             )  # fmt: skip
             before.add(one.signal)
         if before and not self._checks.active and not self._detection.alarmed:
@@ -317,7 +318,7 @@ class Diagnosis:
             since = self._onset(time, piece)
             self._judge.latch(since)
             message = f"{self._status.names(fresh)} above what a healthy machine does since"
-            message += f" {since:.3f} s"
+            message += f" {moment(since)}"
             levels = self._detection.levels()
             told = self._unusual()
             if told:

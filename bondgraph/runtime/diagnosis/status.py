@@ -12,6 +12,7 @@ from bondgraph.runtime.diagnosis.origins import Origins
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.text.moment import moment
 from bondgraph.text.numerals import listed
 
 _PATIENCE = 5.0  # warm-ups in which a residual should have had a value
@@ -145,7 +146,7 @@ class WatchStatus:
         every = rows_apart(self._engine)
         rows = math.ceil((round(at / self._engine.sample_time) + 1) / every) + FIRST - 1
         until = (rows * every - 1) * self._engine.sample_time
-        noise = f"the noise of {self.names(of)} is learned until {until:.3f} s at least"
+        noise = f"the noise of {self.names(of)} is learned until {moment(until)} at least"
         return f"{noise}, and no alarm given before"
 
     def _waiting(self, of: Mask, origins: Origins) -> str:

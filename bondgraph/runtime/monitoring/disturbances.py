@@ -16,6 +16,7 @@ from bondgraph.runtime.monitoring.residual_states import NO_VALUE, Change, Resid
 from bondgraph.runtime.monitoring.silence import Silence
 from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.text.moment import moment
 from bondgraph.text.numerals import listed, plural
 
 _CAUSES = {
@@ -98,7 +99,7 @@ class Disturbances:
         parts = [f"{n} {_CAUSES[name]}" for name, n in self._causes.items() if n]
         count = sum(self._causes.values())
         verb = "is" if count == 1 else "are"
-        since = "" if clock.thrown_since is None else f", from {clock.thrown_since:.6g} s on"
+        since = "" if clock.thrown_since is None else f", from {moment(clock.thrown_since)} on"
         clock.thrown_since = None
         text = f"{plural(count, 'sample')} {verb} thrown away{since}: {listed(parts, 'and')}"
         return text + (f"; the clock stands still at {time:.6g} s" if clock.stands else "")
@@ -148,7 +149,7 @@ class Disturbances:
         if self._values.due(self.progress):
             verb = "has" if len(now.signals) == 1 else "have"
             text = f"{listed(now.signals, 'and')} {verb} no number (empty, null, NaN, infinite or"
-            text += f" absent) since {self._since:.3f} s: {_blind(now.residuals)}"
+            text += f" absent) since {moment(self._since)}: {_blind(now.residuals)}"
             self._say(Verdict("invalid", time, message=text))
             self._blind = now
 
@@ -164,7 +165,7 @@ class Disturbances:
         at = float(time[start + int(sound.argmax())])
         text = f"{listed(told.residuals, 'and')} {'has' if len(of) == 1 else 'have'} a value again:"
         text += f" {listed(told.signals, 'and')} {'is' if len(told.signals) == 1 else 'are'} there;"
-        text += f" what happened from {self._since:.3f} s to {at:.3f} s may have been missed"
+        text += f" what happened from {moment(self._since)} to {moment(at)} may have been missed"
         self._say(Verdict("warm-up", at, message=text))
         self._blind = _NOTHING
 

@@ -19,6 +19,7 @@ from bondgraph.runtime.monitoring.sources.sample_source import Chunk
 from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
 from bondgraph.runtime.monitoring.watch_parts import Parts, Stop
 from bondgraph.runtime.time_column import Pace
+from bondgraph.text.moment import moment
 from bondgraph.text.numerals import listed
 
 _EVERY = 1.0  # s between two positions in the journal
@@ -164,7 +165,7 @@ class Monitor:
             what = f"at most {lost:.3f} s of the stream are missed ({count} samples)"
         else:
             what = (
-                f"the time of the stream begins anew at {first:.3f} s, what was missed is unknown"
+                f"the time of the stream begins anew at {moment(first)}, what was missed is unknown"
             )
         self._resumed(past, what)
 

@@ -6,6 +6,7 @@ import json
 import math
 from typing import Any
 
+from bondgraph.text.moment import moment
 from bondgraph.text.numerals import listed
 from bondgraph.text.printable import json_text
 from bondgraph.text.tuples import NamedTuple
@@ -130,7 +131,7 @@ def to_text(verdict: Verdict) -> str:
            0.460 s  warm-up  r1 and r2 are watched from now on
     """
     message = verdict.message or described(verdict)
-    return f"{verdict.time:>12.3f} s  {verdict.event:<7}  {message}"
+    return f"{moment(verdict.time):>14}  {verdict.event:<7}  {message}"
 
 
 def _account(record: Any) -> dict[str, Any] | None:
@@ -198,7 +199,7 @@ nearest comes R (90 %, +2 Ohm); r2 at 3.1 times its threshold
 
 
 def _since(verdict: Verdict) -> str:
-    return "" if verdict.since is None else f" since {verdict.since:.3f} s"
+    return "" if verdict.since is None else f" since {moment(verdict.since)}"
 
 
 def _levels(verdict: Verdict) -> str:
