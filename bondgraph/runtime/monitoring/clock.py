@@ -16,6 +16,7 @@ import numpy as np
 from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.text.moment import moment
 from bondgraph.text.tuples import NamedTuple
 
 #: Why a sample is thrown away: its time is before that of another one, or the same; it has no
@@ -50,15 +51,16 @@ class Gap(NamedTuple):
     @property
     def text(self) -> str:
         """One sentence for people."""
+        start, end = (moment(time, ".6g") for time in self[:2])
         if self.end < self.start:
             back = self.start - self.end
-            return f"the clock went back by {back:.6g} s at {self.start:.6g} s"
+            return f"the clock went back by {back:.6g} s at {start}"
         if self.off:
-            return f"the machine was off from {self.start:.6g} s to {self.end:.6g} s"
+            return f"the machine was off from {start} to {end}"
         if self.still:
-            return f"the clock stood still at {self.start:.6g} s for {self.still} samples"
+            return f"the clock stood still at {start} for {self.still} samples"
         missing = f"{self.lost} sample{'s' if self.lost != 1 else ''}"
-        return f"{missing} lost from {self.start:.6g} s to {self.end:.6g} s"
+        return f"{missing} lost from {start} to {end}"
 
 
 class Piece(NamedTuple):

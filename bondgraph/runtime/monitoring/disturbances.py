@@ -99,10 +99,10 @@ class Disturbances:
         parts = [f"{n} {_CAUSES[name]}" for name, n in self._causes.items() if n]
         count = sum(self._causes.values())
         verb = "is" if count == 1 else "are"
-        since = "" if clock.thrown_since is None else f", from {moment(clock.thrown_since)} on"
+        since = "" if clock.thrown_since is None else f", from {_moment(clock.thrown_since)} on"
         clock.thrown_since = None
         text = f"{plural(count, 'sample')} {verb} thrown away{since}: {listed(parts, 'and')}"
-        return text + (f"; the clock stands still at {time:.6g} s" if clock.stands else "")
+        return text + (f"; the clock stands still at {_moment(time)}" if clock.stands else "")
 
     # --------------------------------------------------------------------------------- gaps
 
@@ -114,8 +114,8 @@ class Disturbances:
             return
         start = float(piece.time[0])
         begin = start if piece.gap is None else min(start, piece.gap.start)
-        message = f"{piece.anew}; the residuals warm up, and what happens from {begin:.6g} s to"
-        message += f" about {start + self._warm_up:.6g} s may be missed"
+        message = f"{piece.anew}; the residuals warm up, and what happens from {_moment(begin)} to"
+        message += f" about {_moment(start + self._warm_up)} may be missed"
         if count > 2:
             message += f" ({count} gaps in a row: tell the rate of the samples by --rate)"
         self._say(Verdict("gap", start, message=message))
@@ -236,3 +236,7 @@ class Hearing:
 
 def _blind(residuals: tuple[str, ...]) -> str:
     return f"{listed(residuals, 'and')} {'is' if len(residuals) == 1 else 'are'} blind"
+
+
+def _moment(seconds: float) -> str:
+    return moment(seconds, ".6g")

@@ -7,6 +7,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
+from bondgraph.runtime.monitoring.clock import Gap
 from bondgraph.text.moment import moment
 
 
@@ -32,3 +33,10 @@ def test_a_date_is_the_one_that_was_read() -> None:
     for seconds in (1.2e9, 1.5e9 + 0.125, 4.1e9):
         told = datetime.fromisoformat(moment(seconds).replace("Z", "+00:00"))
         assert told - begin == timedelta(seconds=seconds)
+
+
+def test_a_gap_of_a_clock_is_told_with_dates() -> None:
+    assert Gap(1e9, 1e9 + 2.5, 24).text == (
+        "24 samples lost from 2001-09-09T01:46:40.000Z to 2001-09-09T01:46:42.500Z"
+    )
+    assert Gap(4.0, 4.5, 4).text == "4 samples lost from 4 s to 4.5 s"

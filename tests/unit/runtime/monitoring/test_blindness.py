@@ -167,7 +167,7 @@ def test_samples_without_any_number_are_thrown_away_and_told(
     path.write_text("".join(_cells(rows, "", _AT, _BACK, (1, 2, 3, 4))))
     said, account = watched(capsys, path)
     (late,) = [v for v in said if v["event"] == "late"]
-    assert "1500 samples are thrown away, from 3.000 s on: 1500 without any number" in late["message"]
+    assert "1500 samples are thrown away, from 3 s on: 1500 without any number" in late["message"]
     (gap,) = [v for v in said if v["event"] == "gap"]
     assert "1500 samples lost from 2.999 s to 4.5 s" in gap["message"]
     assert account["samples"]["empty"] == account["lines"]["lost"] == 1500
