@@ -84,12 +84,9 @@ def tune(
     work = _Work(engine, model, logs)
     window += engine.lags[-1]
     total = 2 * len(logs)
-    learned: list[_Noise] = []
-    for k, log in enumerate(logs):
-        own = work.noise(log)
-        if own is not None:
-            learned.append(own)
-        progress((k + 1) / total)
+    learned = work.learned(logs, lambda k: progress(k / total))
+    if work.walks(learned):
+        learned = work.learned(logs, lambda _: None)
     seconds = sum(n.rows for n in learned) * engine.sample_time
     if seconds <= 0:
         raise ValueError(
@@ -162,25 +159,37 @@ class _Work:
         self.tolerated, self.spread = tolerated(self.all, model)
         self.every = rows_apart(engine)
         self.least = _ACCURACY * self._terms(longest)
-        self.drifts = np.array([model.natures[name].drifts for name in engine.residuals])
-        own = [self._walk(log) for log in logs]
-        #: Of residuals that add up readings, how far they go in a row and what noise is beside.
-        self.walk, self.beside = np.max([np.zeros((2, len(self.drifts))), *own], axis=0)
+        modes = [model.natures[name].modes for name in engine.residuals]
+        #: What half a sample of commands makes in these logs is in the noise, but behind a switch.
+        self.free = np.array([0.0 if own else math.inf for own in modes])
+        self.held = np.zeros(len(modes))
+        self._drifts = [model.natures[name].drifts for name in engine.residuals]
+        #: Of residuals whose noise adds up, how far they go in a row and what noise is beside.
+        self.walk, self.beside = np.zeros(len(modes)), np.zeros(len(modes))
 
-    def _walk(self, samples: Array) -> Array:
-        """How far residuals that add up readings walk in a row, and their noise; (2, residuals)."""
-        found = np.zeros((2, len(self.drifts)))
-        if not self.drifts.any():
-            return found
-        own = self.engine.configured(bounds=False)
-        rows = []
-        for part in self._parts(samples):
-            batch = own.run(part)
-            rows.append(np.where(batch.valid, batch.value, np.nan)[self.every - 1 :: self.every])
-        for k in np.flatnonzero(self.drifts).tolist():
-            values = np.concatenate(rows)[:, k]
-            found[:, k] = wander(values).most, CAREFUL * stepped(values)
+    def learned(self, logs: Sequence[Array], progress: Callable[[int], None]) -> list[_Noise]:
+        """What each log tells, but for those that are no longer than the warm-up."""
+        found = []
+        for k, log in enumerate(logs):
+            own = self.noise(log)
+            if own is not None:
+                found.append(own)
+            progress(k + 1)
         return found
+
+    def walks(self, logs: Sequence[_Noise]) -> bool:
+        """Whether residuals that add up readings go further in some log than their noise.
+
+        An integral of what encoders count does not, nor one that a limit keeps where it is.
+        """
+        for log in logs:
+            for k in [k for k, drifts in enumerate(self._drifts) if drifts]:
+                rows = log.rest[:, k]
+                found = wander(rows)
+                if found.step * math.sqrt(np.isfinite(rows).sum()) > found.noise:
+                    self.walk[k] = max(self.walk[k], found.step)
+                self.beside[k] = max(self.beside[k], CAREFUL * stepped(rows))
+        return bool(self.walk.any())
 
     def _parts(self, samples: Array) -> Iterator[Array]:
         """Whole rows of a log, some thousand samples at a time."""
@@ -252,10 +261,11 @@ class _Work:
 
     def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array, Array]]:
         """Residuals, slopes of what is tolerated, and doubt, some thousand samples at a time."""
-        whole = _Whole(self)
+        whole = _Whole(self, self.free)
         whole.run(before)
         for part in self._parts(samples):
             yield whole.run(part)
+            self.held = np.maximum(self.held, whole.acted)
 
     def windows(
         self, samples: Array, known: Mapping[str, Limit], window: float, rigid: Array
@@ -264,13 +274,13 @@ class _Work:
 
         `rigid` are thresholds that never move, by residual.
         """
-        whole = _Whole(self)
+        own = limits(known, self.engine.residuals)
+        whole = _Whole(self, np.array([limit.held for limit in own]))
         engine = whole.engine
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
         length = max(2, round(window / self.engine.sample_time))
         lasting = [self.all[k] for k, smooth in self.ways if smooth]
         behind = self.engine.configured(bounds=False)  # where it was a warm-up ago
-        own = limits(known, engine.residuals)
         top = np.array([limit.kappa * limit.sigma for limit in own])
         whole.run(samples[:start])
         for begin in range(start, len(samples) - length + 1, length):
@@ -310,8 +320,8 @@ class _Work:
 class _Whole:
     """The residuals with the whole of their thresholds, beside the slopes of what is tolerated."""
 
-    def __init__(self, work: _Work) -> None:
-        self.engine = work.engine.configured()
+    def __init__(self, work: _Work, held: Array) -> None:
+        self.engine, self._held = work.engine.configured(), held
         self._bank = Bank(work.engine.configured(bounds=False), work.tolerated, work.nominal)
         self._doubt, self._tolerated = Doubt(work.engine, work.model), work.tolerated
         self._walk, self._age = work.walk, 0
@@ -319,7 +329,8 @@ class _Whole:
     def run(self, samples: Array) -> tuple[Batch, Array, Array]:
         """Go on with further samples."""
         batch, slopes = self.engine.run(samples), self._bank.run(samples)
-        doubt, valid = self._doubt.run(samples, batch, self._age, self._walk)
+        doubt, valid = self._doubt.run(samples, batch, self._age, self._walk, self._held)
+        self.acted = self._doubt.acted.max(axis=0, initial=0.0)
         bound = batch.bound + slack(self._tolerated, slopes) + doubt
         self._age += len(samples)
         return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes, doubt
@@ -364,22 +375,22 @@ def _limits(
         least = float(work.least[k])
         sigma = max(own.foreseen(asked), float(tail[k]), least)
         top, bottom = excess[:, k].tolist()
-        if work.drifts[k]:  # no sum of a walk tells anything
+        if work.walk[k]:  # no sum of a walk tells anything
             sigma = max(float(work.beside[k]), least)
             level = max(asked, _ABOVE * max(top, bottom) / sigma)
             limit = Limit(sigma, rate, level, NEVER.height, walk=float(work.walk[k]))
-            found[engine.residuals[k]] = limit
-            continue
-        level = max(asked, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
-        # what a single sample reached says nothing of the noise of averages
-        mean = lasting(averages[:, k], 0.0, stands[k], asked)
-        limit = Limit(sigma, rate, level, height(often, alarms), own.mean, own.memory)
-        if math.isfinite(mean.unit):
-            off = mean.mean - own.mean if stands[k] else 0.0
-            unit = mean.unit * sigma / max(own.foreseen(asked), least)
-            unit = max(unit, least * (1.0 + float(mean.weights.sum())))
-            limit = Limit(*limit[:6], unit, off, *mean.weights.tolist())
-        found[engine.residuals[k]] = limit
+        else:
+            level = max(asked, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
+            limit = Limit(sigma, rate, level, height(often, alarms), own.mean, own.memory)
+            # what a single sample reached says nothing of the noise of averages
+            mean = lasting(averages[:, k], 0.0, stands[k], asked)
+            if math.isfinite(mean.unit):
+                off = mean.mean - own.mean if stands[k] else 0.0
+                unit = mean.unit * sigma / max(own.foreseen(asked), least)
+                unit = max(unit, least * (1.0 + float(mean.weights.sum())))
+                limit = Limit(*limit[:6], unit, off, *mean.weights.tolist())
+        held = float(work.held[k]) if work.free[k] else 0.0
+        found[engine.residuals[k]] = limit._replace(held=held)
     return _higher(found, engine.residuals, logs, work.spread)
 
 

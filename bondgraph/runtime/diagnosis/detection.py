@@ -25,7 +25,7 @@ class Detection:
 
     `fired` says which have, `most` by how much of its threshold each was out at most, of the last
     samples while none has fired; `alarms` counts them. The sample test fires after `least` samples
-    in a row. `limits` have the columns of `Limit`, (residuals, 13).
+    in a row. `limits` have the columns of `Limit`, (residuals, 14).
 
     A fault is over once each residual that has fired is twenty times as probable to be that of a
     healthy machine as one that goes on as it has been while it was out, normal with that mean and

@@ -133,7 +133,8 @@ class Diagnosis:
         self._last = []
         for part in self._parts(time, batch, samples, out):
             if self._learning is not None:
-                fresh = self._learning.part(part, healthy=not self._detection.alarmed)
+                healthy = not self._detection.alarmed
+                fresh = self._learning.part(part, healthy, self._doubt.acted)
                 self._status.relearning(float(part.time[0]), fresh, out)
             line = part.bound + self._limits[:, 2] * self._limits[:, 0]
             line += self._offsets.room(part, line, self._history)
@@ -163,7 +164,8 @@ class Diagnosis:
             self._origins.take(time[own], samples[own], self._past, again)
             slopes = self._bank.run(samples[own])
             given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
-            doubt, sound = self._doubt.run(samples[own], given, number, self._limits[:, 12])
+            walk, held = self._limits[:, 12], self._limits[:, 13]
+            doubt, sound = self._doubt.run(samples[own], given, number, walk, held)
             value, valid, bound = self._origins.judged(given, self._bank, slopes)
             valid = valid & sound
             value = np.where(valid, value - self._limits[:, 4], 0.0)

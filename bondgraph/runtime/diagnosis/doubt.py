@@ -27,7 +27,8 @@ class Doubt:
       one sample later. Where filtered derivatives stand behind a switch they are of both its
       positions until the filter has settled, and the residual has no meaning.
     - A converter holds a command until the next one, so that it acts half a sample later than
-      what moves in straight lines from sample to sample: as much as that makes is in doubt.
+      what moves in straight lines from sample to sample: as much as that makes is in doubt. What
+      it made at most while noise was learned is in the noise; only where it is more, it counts.
     - A nonlinear law of filtered derivatives is off by what the filter does to the signals. With
       half the time constants that is a quarter; held against that, by a filter that makes both
       equally late, it shows how much it is, while a fault makes no difference.
@@ -54,20 +55,23 @@ class Doubt:
         self._fast = engine.configured(bandwidth=faster, bounds=False) if self._bent else None
         self._smooth: list[Any] = [np.zeros((2 * n, 1)) for _, n in self._bent]
         self._sample: Array | None = None
+        self.acted = np.zeros((0, count))  #: of the last samples, by how much that is in doubt
         self._peak = np.zeros((2, count))  # of this row and the one before
         self._age = 0
 
     def run(
-        self, samples: Array, batch: Batch, number: int, walk: Array
+        self, samples: Array, batch: Batch, number: int, walk: Array, held: Array
     ) -> tuple[Array, Mask]:
         """By how much each residual is in doubt, and which have a value; both (n, residuals).
 
         `batch` are the residuals of the samples, of which `number` counts the first one from the
-        start of time. `walk` is how far what a residual adds up goes in a row, a deviation.
+        start of time. `walk` is how far what a residual adds up goes in a row, a deviation, `held`
+        what is in its noise of what commands and switches make (`acted`).
         """
         doubt, valid = np.zeros_like(batch.value), batch.valid.copy()
         if self._late is not None:
-            self._acted(self._late, samples, batch, doubt, valid)
+            self.acted = self._late_by(self._late, samples, batch, valid)
+            doubt += np.where(self.acted > held, self.acted, 0.0)
         if self._fast is not None:
             doubt += self._bias(self._fast, samples, batch, valid, number)
         if walk.any():
@@ -76,25 +80,18 @@ class Doubt:
         self._age += len(samples)
         return doubt, valid
 
-    def _acted(
-        self,
-        late: Engine,
-        samples: Array,
-        batch: Batch,
-        doubt: Array,
-        valid: Mask,
-    ) -> None:
+    def _late_by(self, late: Engine, samples: Array, batch: Batch, valid: Mask) -> Array:
         """What it makes that commands act half a sample later, and switches turn a whole one."""
         if not len(samples):
-            return
+            return np.zeros_like(batch.value)
         last = samples[0] if self._sample is None else self._sample
         before = np.vstack([last, samples[:-1]])
         told = samples.copy()
         told[:, self._modes] = before[:, self._modes]
         told[:, self._commands] = 0.5 * (told + before)[:, self._commands]
-        other = late.run(told)
-        doubt += np.where(other.valid & valid, np.abs(batch.value - other.value), 0.0)
         self._sample = samples[-1].copy()
+        other = late.run(told)
+        return np.where(other.valid & valid, np.abs(batch.value - other.value), 0.0)
 
     def _bias(
         self,

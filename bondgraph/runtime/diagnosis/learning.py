@@ -108,6 +108,8 @@ class Learning:
         limit = Limit(math.inf, crossings, kappa(crossings, alarms), height(rows, alarms))
         self.limits = np.tile(np.array(limit, dtype=float), (len(used), 1))
         self.limits[self._stays, 3] = math.inf
+        self.limits[:, 13] = [0.0 if modes else math.inf for modes in self._modes]
+        self._acted = np.zeros(len(used))  # what half a sample of the commands made at most
         values = [h for h in known if h.kind == "value"]
         self._prior = tolerated(values, model)[1]
         every, _ = tolerated(known, model)  # rows have the slopes of all of these
@@ -152,8 +154,8 @@ class Learning:
         self._due[own & ~self.unsure] = _MOST + 1
         self._modes = [[] if o else m for m, o in zip(self._modes, own, strict=True)]
 
-    def part(self, part: Part, healthy: bool) -> Mask:
-        """Samples of a row that is not full yet.
+    def part(self, part: Part, healthy: bool, acted: Array) -> Mask:
+        """Samples of a row that is not full yet, with what half a sample of the commands makes.
 
         Returns the residuals whose noise has to be learned again, for switches as never before.
         """
@@ -161,6 +163,8 @@ class Learning:
         for side, value in enumerate((part.value + mean, -part.value - mean)):
             excess = np.where(part.valid, value - part.bound, -math.inf)
             self._peak[side] = np.maximum(self._peak[side], excess.max(axis=0, initial=-math.inf))
+        if len(acted):
+            self._acted = np.maximum(self._acted, acted.max(axis=0))
         fresh = np.zeros(len(self._wanted), dtype=bool)
         for k in [k for k, m in enumerate(self._modes) if m]:
             now = _settings(part.samples[:, self._modes[k]])
@@ -320,6 +324,8 @@ class Learning:
         self.off[k] = self._rests[k] and _off(left, float(owed[k]))
         self.limits[k, 0] = max(self._sigma[k].values())
         self.limits[k, 4:6] = found.mean, found.memory
+        if not math.isfinite(self.limits[k, 13]):  # the highest sample was above no such doubt
+            self.limits[k, 13] = self._acted[k]
         if self._drifts[k]:
             self.limits[k, 12] = wander(values).most
         if not (self._stays[k] or self._modes[k]):

@@ -18,7 +18,8 @@ _MOST = 1e100  # of any number: its square is one, too
 #: What each number of a limit is at least.
 _LEAST = {"sigma": 1 / _MOST, "crossings": 0.0, "kappa": 0.0, "height": 0.0, "mean": -_MOST,
           "memory": 1 / _MOST, "unit": 0.0, "stands": -_MOST, "before1": 0.0, "before2": 0.0,
-          "before3": 0.0, "before4": 0.0, "walk": 0.0}  # fmt: skip
+          "before3": 0.0, "before4": 0.0, "walk": 0.0,
+          "held": 0.0}  # fmt: skip
 _SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filter may be, rad
 _ENOUGH = 75  # rows, of three time constants, that a log should have
 
@@ -32,7 +33,8 @@ class Limit(NamedTuple):
     noise that adds up: the variance of a sum of n rows is n sigma^2 times their `memory`.
     Averages of rows `stands` above the mean; each with so much of those before it as `before1` and
     so on say adds up with the deviation `unit` (see `Lasting`), zero where that is not known. What
-    adds up readings for ever walks away, in a row by the deviation `walk`.
+    adds up readings for ever walks away, in a row by the deviation `walk`. Of what half a sample of
+    the commands makes (see `Doubt`) so much was in the noise as it is `held`.
     """
 
     sigma: float
@@ -48,6 +50,7 @@ class Limit(NamedTuple):
     before3: float = 0.0
     before4: float = 0.0
     walk: float = 0.0
+    held: float = 0.0
 
 
 class Tuning(NamedTuple):
