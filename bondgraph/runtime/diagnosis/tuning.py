@@ -33,8 +33,8 @@ class Limit(NamedTuple):
     noise that adds up: the variance of a sum of n rows is n sigma^2 times their `memory`.
     Averages of rows `stands` above the mean; each with so much of those before it as `before1` and
     so on say adds up with the deviation `unit` (see `Lasting`), zero where that is not known. What
-    adds up readings for ever walks away, in a row by the deviation `walk`. Of what half a sample of
-    the commands makes (see `Doubt`) so much was in the noise as it is `held`.
+    adds up readings for ever walks away, in a row by the deviation `walk`. What half a sample of
+    the commands makes (see `Doubt`) was `held` at most in the logs that the noise is from.
     """
 
     sigma: float
