@@ -127,9 +127,10 @@ def _message(compilation: Compilation, found: Fitted) -> str:
     if found.offsets:
         known = sum(p.error is not None for p in found.offsets)
         many += f" and {known} of {plural(len(found.offsets), 'offset')}"
+    doubted = sum(p.doubted for p in (*found.parameters, *found.offsets))
     return (
         f"{compilation.graph.name}: {told} of {many} told by {found.seconds:.3g} s of"
-        " healthy operation"
+        f" healthy operation{f', {doubted} fitted without an interval' if doubted else ''}"
     )
 
 
@@ -184,6 +185,7 @@ def _given(
 
 def _line(p: Fitting) -> str:
     note = "not told by the logs" if p.interval is None else f"+- {p.interval:.2g} (95 %)"
+    note = "no interval: the model leaves something out" if p.doubted else note
     return f'"{p.name}" = {p.value!r}  # {_about(p, note)}'
 
 
@@ -205,7 +207,7 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
     rows: list[tuple[str, ...]] = [("parameter", "nominal", "fitted", "+- (95 %)", "unit")]
     for p in (*found.parameters, *found.offsets):
         sure = "not told" if p.interval is None else f"{p.interval:.2g}"
-        sure = "at its bound" if p.bound else sure
+        sure = "at its bound" if p.bound else "no interval" if p.doubted else sure
         name = f"offset of {p.name}" if p in found.offsets else p.name
         rows.append((name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit))
     lines = [_message(compilation, found), "", *console.columns(rows)]
@@ -213,6 +215,9 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
         names = ", ".join(p.name for p in found.parameters if p.bound)
         lines += ["", f"With another sign {names} would fit better: see to the signs of the"
                   " signals, and to the model, unless the logs hardly tell of it."]  # fmt: skip
+    if any(p.doubted for p in (*found.parameters, *found.offsets)):
+        lines += ["", "Without an interval: they fit best, but the residuals that tell them hold"
+                  " more than noise (see below)"]  # fmt: skip
     if found.combinations:
         lines += ["", "What the logs cannot tell (such parameters stay near their nominal values)"]
         for c in found.combinations:

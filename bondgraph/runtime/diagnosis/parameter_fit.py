@@ -59,7 +59,8 @@ _SPANS = 20  # of the log, each of which is asked whether it fits
 class Fitting(NamedTuple):
     """One parameter: `value` in SI, and its standard `error`, None where the logs cannot tell it.
 
-    `bound` says that it would have had to change its sign to fit better.
+    `bound` says that it would have had to change its sign to fit better, `doubted` that what tells
+    it is wrong by more than noise: no error that is reckoned from noise would hold.
     """
 
     name: str
@@ -68,6 +69,7 @@ class Fitting(NamedTuple):
     error: float | None
     unit: str
     bound: bool
+    doubted: bool = False
 
     @property
     def interval(self) -> float | None:
@@ -245,13 +247,13 @@ def fit(
     if any(x.much for x in left):
         deviation = np.hypot(deviation, problem.disturbed(at, [x.much for x in left]))
     told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
-    told &= problem.told_by(at, [x.wrong for x in left])[:count] <= _MOST
+    sound = problem.told_by(at, [x.wrong for x in left])[:count] <= _MOST
     values = problem.values(at).tolist()
     own = tuple(
         Fitting(
             name, float(problem.nominal[k]), values[k],
-            float(problem.scale[k] * deviation[k]) if told[k] else None,
-            units.get(name, ""), bool(bound[k]),
+            float(problem.scale[k] * deviation[k]) if told[k] and sound[k] else None,
+            units.get(name, ""), bool(bound[k]), bool(told[k] and not sound[k]),
         )
         for k, name in enumerate(names)
     )  # fmt: skip

@@ -127,6 +127,7 @@ class Levels:
         self._steps, self._most = np.zeros(residuals), np.zeros(residuals)
         self._noise, self._rows = np.zeros(residuals), np.ones(residuals)
         self._level, self._variance = np.zeros(residuals), np.zeros(residuals)
+        self._mean = np.zeros(residuals)  # that levels are beside
 
     @property
     def walking(self) -> bool:
@@ -134,10 +135,16 @@ class Levels:
         return bool(self._steps.any())
 
     def begin(self, k: int, found: Wander, mean: float, rows: int) -> None:
-        """A residual wanders as was `found` of so many rows, whose mean is known."""
+        """A residual wanders as was `found` of so many rows, whose mean is known.
+
+        Found once more, it stands where rows have told since, and not where these come to with
+        parameters that fit them best: those are others than what a row is judged beside.
+        """
+        stands = self._mean[k] + self._level[k] if self._steps[k] > 0.0 else found.level
         self._steps[k], self._most[k], self._noise[k] = found.step, found.most, found.noise
-        self._level[k] = found.level - mean if found.step > 0.0 else 0.0
-        self._variance[k], self._rows[k] = found.variance, rows
+        self._level[k] = stands - mean if found.step > 0.0 else 0.0
+        self._variance[k] = max(self._variance[k], found.variance)
+        self._rows[k], self._mean[k] = rows, mean
 
     def ahead(self, alarmed: bool) -> None:
         """A row passes. An alarm is what a walk makes, too: while it lasts there is one."""
@@ -177,4 +184,5 @@ class Levels:
             table[:] = array(known, table.shape)
 
     def _tables(self) -> tuple[Array, ...]:
-        return self._steps, self._most, self._noise, self._rows, self._level, self._variance
+        return (self._steps, self._most, self._noise, self._rows, self._level, self._variance,
+                self._mean)  # fmt: skip

@@ -69,6 +69,24 @@ def test_a_log_without_noise_fits_unless_the_law_is_another(
     assert ("the model" in done.out) == bool(squared)
 
 
+def test_what_a_wrong_law_tells_has_no_interval_either(bondgraph: Command, folder: Path) -> None:
+    """R of 3 Ohm and 1.2 V beside it, that turns with the current: the law has no such term."""
+    t = np.arange(6000) / 1000.0
+    i = np.sin(8.0 * t) + 0.5 * np.sin(21.0 * t)
+    rate = 8.0 * np.cos(8.0 * t) + 10.5 * np.cos(21.0 * t)
+    noise = np.random.default_rng(3).normal(0.0, 0.002, len(t))
+    drive = 3.0 * i + 1.2 * np.tanh(20.0 * i) + 1e-3 * rate
+    write_log(Log(t, {"U": drive, "y": i + noise}, {}, {}), "log.csv")
+    done = bondgraph("fit", "c.bg", "log.csv", "--free", "R", "-o", "p.toml")
+    assert done.status == 0, done.err
+    assert "follows the inputs" in done.out
+    assert "0 of 1 parameter told" in done.out and "1 fitted without an interval" in done.out
+    assert "not told" not in done.out
+    text = (folder / "p.toml").read_text()
+    assert "# Ohm, no interval: the model leaves something out" in text
+    assert not tomllib.loads(text)["standard_errors"]
+
+
 def test_what_is_not_told_has_no_interval(bondgraph: Command, folder: Path) -> None:
     text = MODEL.replace("param L", "param S = 1 Ohm; param L")
     text = text.replace("i -> R:R", "i -> R:R; i -> R:S")

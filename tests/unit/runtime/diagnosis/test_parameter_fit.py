@@ -311,6 +311,7 @@ def test_an_inductance_that_the_model_leaves_out_follows_the_input() -> None:
     assert left.follows is not None
     assert left.follows > 0.8
     assert only(found).error is None
+    assert only(found).doubted  # not for want of motion: R is told, by a residual that is wrong
 
 
 def test_the_terms_of_a_residual_are_its_two_sides() -> None:

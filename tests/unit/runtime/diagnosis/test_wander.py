@@ -84,11 +84,27 @@ def test_a_level_follows_as_the_best_linear_estimate() -> None:
     own = before + step**2 * np.minimum.outer(at, at)
     found = own[-1] @ np.linalg.solve(own + noise**2 * np.eye(4), values)
     left = own[-1, -1] - own[-1] @ np.linalg.solve(own + noise**2 * np.eye(4), own[-1])
-    level, variance = levels.state()[4:]
+    level, variance = levels.state()[4:6]
     assert level == pytest.approx([found]) and variance == pytest.approx([left])
     other = Levels(1)
     other.resume(json.loads(json.dumps(levels.state())))
     assert other.state() == levels.state()
+
+
+def test_found_once_more_a_level_stands_where_rows_have_told() -> None:
+    """What is found then is of rows with parameters that fit them best, which may stand far off."""
+    levels = Levels(1)
+    levels.begin(0, Wander(0.3, 0.3, 5.5, 0.5, 1.2, 1.0), 5.0, 10)
+    assert levels.state()[4] == pytest.approx([0.5])
+    for value in (0.2, 0.4):
+        levels.ahead(alarmed=False)
+        levels.learn(np.array([value]), np.array([True]))
+    (stood,), (variance,) = levels.state()[4:6]
+    levels.begin(0, Wander(0.1, 0.2, -9.0, 0.0, 1.0, 1.0), 5.1, 20)
+    (level,), (sure,) = levels.state()[4:6]
+    assert 5.1 + level == pytest.approx(5.0 + stood) and sure == variance
+    levels.begin(0, Wander(0.1, 0.2, -9.0, 7.0, 1.0, 1.0), 5.1, 40)
+    assert levels.state()[5] == [7.0]  # as little as is known of so many rows
 
 
 _TANK = """bg 1
