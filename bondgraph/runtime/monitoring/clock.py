@@ -98,6 +98,7 @@ class Clock:
         self.thrown_since: float | None = None  # s, where the first one was; whoever tells forgets
         self.left_out = 0  # samples in which the machine was off
         self.used = 0
+        self.missing = np.zeros(len(known), dtype=np.int64)  # of these, without each signal
         self.still = 0  # samples since the last one that was used: of its time, with other values
         self._latest: Array = np.full(len(known), np.nan)  # the values that came last
         self._since: float | None = None  # the newest time before it was
@@ -288,10 +289,12 @@ class Clock:
 
     def _extend(self, times: Array, rows: Array) -> None:
         """Take samples of the stretch, counters without their runs over."""
-        rows = np.where(np.isfinite(rows), rows, np.nan)
+        there = np.isfinite(rows)
+        rows = np.where(there, rows, np.nan)
         for at in self._counts:
             self._count(rows[:, at], at)
         self.used += len(times)
+        self.missing += len(times) - there.sum(axis=0)
         self._times = np.concatenate([self._times, times])
         self._rows = np.concatenate([self._rows, rows])
 

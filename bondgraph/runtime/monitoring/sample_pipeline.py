@@ -41,7 +41,8 @@ class Monitor:
         self._number = 0
         self._pending: list[tuple[int, Verdict]] = []
         self.states = ResidualStates(parts.engine)
-        self.account = Account(self.states, parts.engine.sample_time)
+        signals = [k.path for k in parts.engine.signals]
+        self.account = Account(self.states, parts.engine.sample_time, signals)
         self._disturbances = Disturbances(
             self.account, self.states, parts.engine.warm_up, self._say
         )
@@ -268,10 +269,10 @@ class Monitor:
             parts.clock.wraps = _wraps(log)
             if TIME in log.meta and (parts.journal is None or parts.journal.past is None):
                 parts.note(f"{parts.source.name}: time is {log.meta[TIME]}")
-        before = numbers(parts.clock)
+        before, missing = numbers(parts.clock), parts.clock.missing.copy()
         pieces = parts.clock.feed(log.time, samples, on)
         if not again:
-            self.account.take(parts.clock, before)
+            self.account.take(parts.clock, before, missing)
             self._disturbances.thrown(before, parts.clock)
             after = numbers(parts.clock)
             if any(after[n] != before[n] for n in ("used", "off")):

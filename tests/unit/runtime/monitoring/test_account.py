@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph.runtime.monitoring.account import Account
-from bondgraph.runtime.monitoring.clock import Gap, Piece
+from bondgraph.runtime.monitoring.account import Account, numbers
+from bondgraph.runtime.monitoring.clock import Clock, Gap, Piece
 from bondgraph.runtime.monitoring.residual_states import BLIND, STATES, WARMING, ResidualStates
 
 _TWO = """bg 1
@@ -21,7 +21,7 @@ model M { param R = 2; param S = 3
 def account() -> Account:
     """Of two residuals, with a step of 10 ms, that have seen nothing yet."""
     engine = bondgraph.compile(text=_TWO).engine(native=False)
-    return Account(ResidualStates(engine), 0.01)
+    return Account(ResidualStates(engine), 0.01, [k.path for k in engine.signals])
 
 
 def _piece(gap: Gap | None) -> Piece:
@@ -43,6 +43,28 @@ def test_residuals_that_were_idle_for_as_long_are_named_together(account: Accoun
     assert account.words() == "blind or warming up: r1 and r2 for 0.500 s"
     found[1, STATES.index(BLIND)] = 100
     assert account.words() == "blind or warming up: r1 for 0.500 s and r2 for 1.000 s"
+
+
+def test_cells_without_a_number_are_counted_by_signal(account: Account) -> None:
+    """Two of a hundred of `i`, by hand; one of `j`, too few to be told; a row of none counts once
+    as `empty`, for no signal."""
+    clock = Clock(bondgraph.compile(text=_TWO).engine(native=False).signals, 0.01, 0.05)
+    rows = np.ones((101, 4))
+    at = list(account.missing).index
+    rows[[3, 90], at("i")], rows[50, at("j")], rows[70] = np.nan, np.inf, np.nan
+    for part in (slice(0, 40), slice(40, 101)):
+        before, missing = numbers(clock), clock.missing.copy()
+        clock.feed(np.arange(101)[part] * 0.01, rows[part])
+        account.take(clock, before, missing)
+    assert account.missing == {"u": 0, "w": 0, "i": 2, "j": 1}
+    assert (account.samples["used"], account.samples["empty"]) == (100, 1)
+    assert account.words() == "i had no number in 2 % of them"
+    found = account._states.samples
+    found[0, STATES.index(BLIND)] = 50
+    assert account.words() == "i had no number in 2 % of them; blind or warming up: r1 for 0.500 s"
+    other = Account(account._states, 0.01, account.missing)
+    other.resume(account.to_record())
+    assert other.missing == account.missing
 
 
 def test_in_a_gap_no_residual_is_watched(account: Account) -> None:
