@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.clock import THROWN, Clock, Piece
 from bondgraph.runtime.monitoring.residual_states import BLIND, STATES, WARMING, ResidualStates
 from bondgraph.text.numerals import listed
@@ -40,7 +40,7 @@ class Account:
         self._states, self._step = states, step
         self.away = 0.0  # s, of all gaps
 
-    def take(self, clock: Clock, before: Mapping[str, int], missing: Array) -> None:
+    def take(self, clock: Clock, before: Mapping[str, int], missing: npt.NDArray[np.int64]) -> None:
         """Add what the clock has done since it had these numbers; see `numbers`."""
         for name, now in numbers(clock).items():
             self.samples[name] += now - before[name]
