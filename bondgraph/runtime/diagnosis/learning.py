@@ -26,7 +26,8 @@ FIRST = 10  # rows with which the noise of a residual counts as known
 _MORE = 1.15  # times as many rows before it is estimated again
 _MOST = 512  # rows, after which it stays as it is
 LATE = 5  # rows before an alarm that may have been faulty already
-_ACCURACY = 1e-4  # of the terms of a residual: no sensor and no sampled law is better
+_ACCURACY = 1e-4  # of what signals move a residual by: no sensor and no sampled law is better
+_DIGITS = 1e-6  # of the terms themselves: with less, rows have no noise that could be measured
 _ABOVE = 1.2  # times the largest excess of what is healthy that a limit stays above
 _BIASED = 2.0  # the same, where it is no noise and may become more
 _HOPELESS = 1.2  # times what noise may do: an approximation that is that far off tells nothing
@@ -44,9 +45,8 @@ class Learning:
     With the first rows a residual is watched, and its limits are as wide as few rows ask for; with
     every further row of a healthy machine more is known (see `Noise`). Noise is what is left of a
     residual once parameters within their tolerances are taken as they fit best. It is not taken for
-    less than a ten-thousandth of what signals do to the residual: samples without noise, as of a
-    simulation, are no reason to trust their last digits. Nor is it for less than what a single
-    sample of the first rows has shown.
+    less than a ten-thousandth of what signals have moved the residual by (see `_least`), nor for
+    less than what a single sample of the first rows has shown.
 
     A residual that drifts or is an approximation has no such noise. What neighbouring rows differ
     by is, and where it has come to: no sample can tell that from a machine that is well, and no sum
@@ -73,7 +73,7 @@ class Learning:
         self._engine = engine
         self._rows: deque[_Healthy] = deque(maxlen=_MOST)
         self._counts = np.zeros(len(used), dtype=int)  # of healthy rows
-        self._scale = np.zeros(len(used))
+        self._added = _nothing((len(self._gains), len(used)))  # by signals, in healthy rows
         natures = [model.natures[n] for n in engine.residuals]
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = [[place[m] for m in n.modes] for n in natures]
@@ -207,9 +207,9 @@ class Learning:
         known with it.
         """
         valid, slopes = row.valid & healthy, row.slopes[self._values]
-        added = self._added(row)
-        sizes = np.abs(added).max(axis=0, initial=0.0)
-        self._scale = np.fmax(self._scale, np.where(valid, sizes, 0.0))
+        added = self._terms(row)
+        self._added[0] = np.fmin(self._added[0], np.where(valid, added, math.nan))
+        self._added[1] = np.fmax(self._added[1], np.where(valid, added, math.nan))
         self._driving.learned(row.samples, valid, added[self._inputs])
         first = np.where(valid & self._wanted, self._peak, -math.inf)
         self._highest = np.maximum(self._highest, first)
@@ -235,7 +235,7 @@ class Learning:
         self._now, self._before = [frozenset() for _ in self._now], self._now
         return fresh
 
-    def _added(self, row: Row) -> Array:
+    def _terms(self, row: Row) -> Array:
         """What signals add to residuals, (signals, residuals), while few rows are known."""
         if not ((self._counts < _MANY) & self._used & ~self.hopeless).any():
             self._bank = None
@@ -245,6 +245,17 @@ class Learning:
         slopes = self._bank.run(row.samples)[-1]
         batch = self._bank.batch
         return np.where(batch is not None and batch.valid[-1], slopes, math.nan)
+
+    def _least(self, noise: Array | float) -> Array:
+        """What is taken for the noise of residuals at least, where rows show so much.
+
+        It is a share of what signals moved them by in these rows, wherever the zeros of signals
+        are. Rows without noise, as of a simulation at rest, tell nothing: then of all of a signal.
+        """
+        moved = np.maximum(self._added[1] - self._added[0], 0.0).max(axis=0, initial=0.0)
+        sizes = np.where(np.isfinite(self._added), np.abs(self._added), 0.0)
+        whole = sizes.max(axis=(0, 1), initial=0.0)
+        return _ACCURACY * np.where(noise < _DIGITS * whole, whole, moved)
 
     def _rest(self) -> tuple[Array, Array, Array, Array]:
         """What is left of the rows with parameters as they fit best, (rows, residuals).
@@ -278,7 +289,7 @@ class Learning:
     def _weight(self, value: Array, bound: Array) -> Array:
         """One over what residuals may be off by, noise from what neighbouring rows differ by."""
         sigma = np.array([stepped(column) for column in value.T])
-        sigma = np.maximum(sigma, _ACCURACY * self._scale)
+        sigma = np.maximum(sigma, self._least(sigma))
         variance = variances(np.nan_to_num(value), bound, sigma)
         return np.where(variance > 0, 1.0 / np.sqrt(np.maximum(variance, 1e-300)), 0.0)
 
@@ -305,7 +316,7 @@ class Learning:
         found = noise(values, float(owed[k]), self._centred[k])
         kappa = float(self.limits[k, 2])
         spread = CAREFUL * stepped(values) if self._stays[k] else found.foreseen(kappa)
-        least = max(spread, _ACCURACY * float(self._scale[k]))
+        least = max(spread, float(self._least(spread)[k]))
         top, bottom = self._highest[:, k].tolist()
         highest = max(top - found.mean, bottom + found.mean, 0.0) / kappa
         if self._approximate[k] and highest > _HOPELESS * least:
@@ -353,7 +364,7 @@ class Learning:
         Noise is taken for so much `wider` than rows show, for what samples have shown.
         """
         found = lasting(values, owed, self._centred[k], float(self.limits[k, 2]))
-        least = _ACCURACY * float(self._scale[k]) * (1.0 + found.weights.sum())
+        least = float(self._least(found.unit)[k]) * (1.0 + found.weights.sum())
         unit = max(wider * found.unit, least)
         stands = found.mean - mean if self._centred[k] else 0.0
         return np.array([unit if math.isfinite(unit) else 0.0, stands, *found.weights])
@@ -405,3 +416,7 @@ def _off(values: Array, owed: float) -> bool:
 
 def _settings(modes: Array) -> _Settings:
     return frozenset(map(tuple, np.unique(modes, axis=0).tolist()))
+
+
+def _nothing(shape: tuple[int, ...]) -> Array:
+    return np.stack([np.full(shape, math.inf), np.full(shape, -math.inf)])

@@ -171,6 +171,19 @@ def test_no_sensor_is_better_than_a_ten_thousandth_of_what_it_does() -> None:
     assert learning.limits[0, 0] == pytest.approx(6e-4, rel=1e-3)
 
 
+@pytest.mark.parametrize("zero", [0.0, 300.0])
+def test_where_the_zero_of_a_signal_is_does_not_matter_to_the_least_noise(zero: float) -> None:
+    """i swings by 0.5 A to either side, R i by 2 V in all; noise of 1 mV is more than that tells.
+
+    As pressures and temperatures do, above a zero that is far away: 600 V would hide the noise.
+    """
+    learning, engine = learner(Hypothesis("i", "gain", "", 0.3, False))
+    for k, value in enumerate(drawn(200, 1e-3)):
+        i = zero + 0.5 * np.sin(0.3 * (k + np.arange(100) / 100.0))
+        told(learning, row(engine, value)._replace(samples=np.column_stack([2.0 * i, i])))
+    assert learning.limits[0, 0] == pytest.approx(1e-3, rel=0.25)
+
+
 def seen_after(rate: float, start: int, seed: int) -> int:
     """Rows after which a drift of so many deviations a row is seen by level or sum."""
     learning, engine = learner()
