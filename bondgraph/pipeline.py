@@ -273,7 +273,9 @@ class Compilation:
         `free` are names of parameters, without it those with a tolerance, or else all; the name of
         a sensor or an input stands for its offset. `noise` are
         standard deviations of signals in their unit, where they are known. Only samples for which
-        `operating` holds count, an expression over columns (docs/logs.md). Raises ValueError for
+        `operating` holds count, an expression over columns (docs/logs.md). The filter has the
+        bandwidth of the options, else that of the rate and length of the logs or a faster one, if
+        this tells more. Raises ValueError for
         logs that are too short and for what is no parameter of a residual, `LogError` for a log
         that lacks a signal.
 
@@ -288,7 +290,9 @@ class Compilation:
         >>> abs(R.value - 3) < R.interval < 0.05
         True
         """
+        from bondgraph.runtime.diagnosis.fit_filter import fit_by_filter
         from bondgraph.runtime.diagnosis.parameter_fit import fit, fittable
+        from bondgraph.runtime.diagnosis.tuning import bandwidth_for
         from bondgraph.runtime.monitoring.whole_logs import stretches
         from bondgraph.runtime.simulation.parameters import units
 
@@ -297,7 +301,12 @@ class Compilation:
         chosen = fittable(engine, model.faults, tolerances, free)
         pieces = stretches(engine, logs.items(), columns, operating)
         own = units(self.graph)
-        return fit(engine, pieces, chosen, tolerances, own, noise or {}, progress)
+        if self.options.bandwidth is not None:
+            return fit(engine, pieces, chosen, tolerances, own, noise or {}, progress)
+        usual = bandwidth_for(1.0 / engine.sample_time, sum(log.rows for log in logs.values()))
+        return fit_by_filter(
+            engine, pieces, chosen, tolerances, own, noise or {}, usual, progress
+        )
 
     def simulate(
         self,

@@ -18,7 +18,6 @@ import numpy as np
 
 import bondgraph
 from bondgraph import Course, Instrument, Sampling, Scenario
-from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from tests.measured import ROOT, write
 
 PAGE = ROOT / "docs" / "fit.md"
@@ -95,8 +94,7 @@ def course(mean: float, sines: tuple[tuple[float, float], ...], machine: Machine
 
 def rows(machine: Machine, logs: int) -> list[Row]:
     """Fit so many logs of a machine."""
-    bandwidth = bandwidth_for(machine.rate, machine.rate * machine.duration)
-    c = bondgraph.compile(ROOT / f"{machine.model}.bg", rate=machine.rate, bandwidth=bandwidth)
+    c = bondgraph.compile(ROOT / f"{machine.model}.bg", rate=machine.rate)
     scenario = Scenario(
         "healthy",
         duration=machine.duration,

@@ -53,7 +53,8 @@ def arguments(parser: ArgumentParser) -> None:
     add("--rate", metavar="HZ", type=sample_rate, default=None,
         help="samples a second (default: that of the first log)")  # fmt: skip
     add("--bandwidth", metavar="RAD/S", type=bandwidth, default=None,
-        help="bandwidth of the filter (default: by rate and length of the logs)")  # fmt: skip
+        help="bandwidth of the filter (default: by rate and length of the logs, or a faster one if"
+        " that tells more)")  # fmt: skip
     logged(add)
     isolating(parser)
     realised(parser)
@@ -62,7 +63,6 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Read the logs, fit, write the parameters, say how sure they are."""
-    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
     from bondgraph.runtime.monitoring.watch_settings import engine_of, something_to_watch
@@ -71,8 +71,7 @@ def run(args: Namespace) -> int:
         raise Trouble("--plot needs matplotlib: pip install 'bondgraph-arr[robot]'")
     logs = read_logs(args)
     rate = args.rate or rate_of(logs[0][1].time) or Options().rate
-    bandwidth = args.bandwidth or bandwidth_for(rate, sum(log.rows for _, log in logs))
-    compilation = realising(args, rate=rate, bandwidth=bandwidth)
+    compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
     something_to_watch(compilation)
     engine = engine_of(compilation)
     mapping = read_map(args.map, engine.signals) if args.map else None
@@ -138,6 +137,8 @@ def _result(compilation: Compilation, found: Fitted) -> dict[str, object]:
     return {
         "model": compilation.graph.name,
         "seconds": found.seconds,
+        "bandwidth": found.bandwidth,
+        "spread": found.spread,
         "parameters": [{**p._asdict(), "interval": p.interval} for p in found.parameters],
         "offsets": [{**p._asdict(), "interval": p.interval} for p in found.offsets],
         "suspects": [s._asdict() for s in found.suspects],
@@ -222,7 +223,7 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
         lines += ["", "What the logs cannot tell (such parameters stay near their nominal values)"]
         for c in found.combinations:
             lines += [f"  {c.text()}", f"    {c.which()}"]
-    lines += ["", "How well it fits"]
+    lines += ["", f"How well it fits (filter of {found.bandwidth:.4g} rad/s)"]
     for left in found.left:
         lines += [f"  {text}" for text in _fits(left, bool(found.suspects))]
     lines += _suspected(found)

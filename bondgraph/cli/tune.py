@@ -24,7 +24,7 @@ from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.diagnosis.calibration import Shown, Tuned
@@ -33,7 +33,8 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.engine import Engine
 
 _FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
-_FASTEST = 0.4  # of the rate, rad: no filter has fewer samples to work with
+_CLIMB = 2.0  # times the fastest of these, for as long as that is clearly the best
+_CLEARLY = 0.1  # of the logarithm of what shows: slower filters are quieter, and rows fewer
 _MORE = 1.2  # times the change that shows, above which that without a jump is told beside it
 _LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
 WINDOW = 40.0  # time constants of the default filter in which a fault has to show
@@ -79,14 +80,15 @@ def run(args: Namespace) -> int:
     try:
         compilation, engine, logs, times = _logs(args)
         usual = bandwidth_for(1.0 / engine.sample_time, max(map(len, logs), default=0))
-        wanted = args.bandwidth or _wanted(engine, usual, logs)
+        wanted = args.bandwidth or _wanted(engine, usual, logs, _FACTORS)
         window = args.window or WINDOW / usual
-        found = []
+        found: list[Tuned] = []
         with console.progress_bar("tuning") as progress:
-            for k, bandwidth in enumerate(wanted):
+            while len(found) < len(wanted):
+                k = len(found)
                 found.append(
                     tune(
-                        engine.configured(bandwidth=bandwidth),
+                        engine.configured(bandwidth=wanted[k]),
                         compilation.diagnosis_model,
                         logs,
                         compilation.program.digest,
@@ -95,6 +97,9 @@ def run(args: Namespace) -> int:
                         _part(progress, k, len(wanted)),
                     )
                 )
+                if not args.bandwidth and len(found) == len(wanted) and _climbs(found):
+                    faster = _wanted(engine, wanted[-1], logs, (_CLIMB,))
+                    wanted += [w for w in faster if w > wanted[-1]]
     except ValueError as error:
         raise Trouble(str(error)) from error
     best = min(found, key=lambda t: (_score(t, found), -t.tuning.bandwidth))
@@ -108,12 +113,16 @@ def run(args: Namespace) -> int:
     )
 
 
-def _wanted(engine: Engine, usual: float, logs: list[Array]) -> list[float]:
+def _wanted(
+    engine: Engine, usual: float, logs: list[Array], factors: Iterable[float]
+) -> list[float]:
     """The bandwidths to try: samples can follow them, and the logs are long enough for them."""
+    from bondgraph.runtime.diagnosis.tuning import FASTEST
+
     longest = max((len(log) for log in logs), default=0) * engine.sample_time
-    tried = [f * usual for f in _FACTORS]
+    tried = [f * usual for f in factors]
     fits = [w for w in tried
-            if w * engine.sample_time <= _FASTEST
+            if w * engine.sample_time <= FASTEST
             and longest >= engine.configured(bandwidth=w).warm_up + 3.0 * _LEAST / w]  # fmt: skip
     return fits or [usual]
 
@@ -153,6 +162,12 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, 
     times = times_of(read)
     found = stretches(engine, read, mapping, args.operating, args.rate is not None)
     return compilation, engine, [piece.samples for _, piece in found], times
+
+
+def _climbs(found: list[Tuned]) -> bool:
+    """Whether the last filter, the fastest, is clearly better: the machine may be faster still."""
+    *slower, fastest = (_score(t, found) for t in found)
+    return bool(slower) and fastest < min(slower) - _CLEARLY
 
 
 def _score(tuned: Tuned, found: list[Tuned]) -> float:

@@ -255,7 +255,7 @@ class Learning:
         moved = np.maximum(self._added[1] - self._added[0], 0.0).max(axis=0, initial=0.0)
         sizes = np.where(np.isfinite(self._added), np.abs(self._added), 0.0)
         whole = sizes.max(axis=(0, 1), initial=0.0)
-        return _ACCURACY * np.where(noise < _DIGITS * whole, whole, moved)
+        return np.asarray(_ACCURACY * np.where(noise < _DIGITS * whole, whole, moved))
 
     def _rest(self) -> tuple[Array, Array, Array, Array]:
         """What is left of the rows with parameters as they fit best, (rows, residuals).

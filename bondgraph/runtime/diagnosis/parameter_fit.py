@@ -176,7 +176,9 @@ class Fitted(NamedTuple):
     """Parameters from logs; `noise` by signal, as it was seen or given, `seconds` of use.
 
     `offsets` are those of signals that were asked for, with a nominal value of zero; `suspects`
-    others that would explain what is left, the most likely one first.
+    others that would explain what is left, the most likely one first. The filter was of this
+    `bandwidth` (rad/s); with it the relative errors of all that is fitted are in the geometric mean
+    exp(`spread`), what no log tells among them.
     """
 
     parameters: tuple[Fitting, ...]
@@ -189,6 +191,8 @@ class Fitted(NamedTuple):
     seconds: float
     correlation: Array  # (p, p), of the errors
     terms: tuple[Terms, ...]
+    bandwidth: float
+    spread: float
 
     @property
     def values(self) -> dict[str, float]:
@@ -275,7 +279,8 @@ def fit(
     split = len(free.parameters)
     return Fitted(
         own[:split], own[split:], suspects, found, left, delays, seen, runs.seconds,
-        covariance / np.outer(apart, apart), problem.terms(at),
+        covariance / np.outer(apart, apart), problem.terms(at), engine.bandwidth,
+        float(np.linalg.slogdet(covariance)[1]) / (2.0 * count),
     )  # fmt: skip
 
 

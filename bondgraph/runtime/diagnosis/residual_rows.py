@@ -37,9 +37,9 @@ class ResidualRows:
         self.every = max(1, round(_APART / engine.bandwidth / time))
         self.skip = math.ceil(engine.warm_up / time / self.every) + 1
         long = (self.skip + 2 * LAGS) * self.every
-        whole = _joined(pieces)
-        self.begins = [(name, start) for name, start, samples in whole if len(samples) > long]
-        self.pieces = [samples for _, _, samples in whole if len(samples) > long]
+        enough = [(name, piece) for name, piece in pieces if len(piece.samples) > long]
+        self.begins = [(name, float(piece.time[0])) for name, piece in enough]
+        self.pieces = [piece.samples for _, piece in enough]
         rows = sum(len(p) // self.every - self.skip for p in self.pieces)
         if rows < _LEAST:
             need = (_LEAST + self.skip) * self.every * time
@@ -159,16 +159,6 @@ class ResidualRows:
         found = np.concatenate([*parts, np.full_like(parts[0][:, :1], np.nan)], axis=1)
         found[:, : self.skip] = np.nan
         return found
-
-
-def _joined(pieces: Sequence[tuple[str, Piece]]) -> list[tuple[str, float, Array]]:
-    """Name, first time and samples of what is without a gap, of pieces that go on with others."""
-    found: list[tuple[str, float, list[Array]]] = []
-    for name, piece in pieces:
-        if piece.anew or not found or found[-1][0] != name:
-            found.append((name, float(piece.time[0]), []))
-        found[-1][2].append(piece.samples)
-    return [(name, start, np.concatenate(parts)) for name, start, parts in found]
 
 
 def _jumps(values: Array) -> bool:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.monitoring.clock import Piece, clock_of
 from bondgraph.runtime.monitoring.columns import Columns, Mapped
@@ -58,4 +60,20 @@ def on_grid(
     Pace(engine.sample_time, name, asked).look(log)
     on = None if operating is None else operating(log)
     samples = Columns(engine.signals, mapping, name)(log)
-    return clock.feed(log.time, samples, on) + clock.finish()
+    return _joined(clock.feed(log.time, samples, on) + clock.finish())
+
+
+def _joined(pieces: Iterable[Piece]) -> list[Piece]:
+    """The pieces of a clock, which come block by block, each with those that go on with it."""
+    found: list[list[Piece]] = []
+    for piece in pieces:
+        if piece.anew or not found:
+            found.append([])
+        found[-1].append(piece)
+    return [
+        first._replace(
+            time=np.concatenate([one.time for one in (first, *rest)]),
+            samples=np.concatenate([one.samples for one in (first, *rest)]),
+        )
+        for first, *rest in found
+    ]

@@ -13,8 +13,10 @@ import pytest
 
 import bondgraph as package
 from bondgraph import Log
+from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.log_file import write_log
 from tests.unit.cli.conftest import Command
+from tests.unit.runtime.diagnosis.test_parameter_fit import VIBRATION, vibration
 
 MODEL = """bg 1
 model Circuit { param R = 2 Ohm +- 5%; param L = 1 mH
@@ -205,6 +207,26 @@ def test_a_tuning_belongs_to_the_numbers_that_it_was_made_with(
     assert watched.status == 0
     assert "fault" not in watched.out
     assert bondgraph(*tuned).status == 1
+
+
+def test_tune_goes_on_to_faster_filters_while_these_show_more(
+    bondgraph: Command, folder: Path
+) -> None:
+    """A mass on a spring, driven around its 450 rad/s: behind 4 times the usual filter little is
+    left of that. The circuit moves at 8 and 21 rad/s, and no filter beyond is tried."""
+    (folder / "v.bg").write_text(VIBRATION)
+    write_log(vibration(), folder / "v.csv")
+    fitted = ["--parameters", "p.toml", "--json"]
+    bondgraph("fit", "v.bg", "v.csv", "-o", "p.toml")
+    found = json.loads(bondgraph("tune", "v.bg", "v.csv", *fitted).out)
+    tried = [one["bandwidth"] for one in found["tried"]]
+    usual = bandwidth_for(610.0, 24_400)
+    assert tried[-1] == found["bandwidth"] == pytest.approx(16.0 * usual)
+    assert found["tried"][-1]["score"] < found["tried"][-2]["score"] - 0.1
+    bondgraph("fit", "c.bg", "log.csv", "-o", "p.toml")
+    found = json.loads(bondgraph("tune", "c.bg", "log.csv", *fitted).out)
+    tried = [one["bandwidth"] for one in found["tried"]]
+    assert tried[-1] <= 4.0 * bandwidth_for(1000.0, 6000)
 
 
 def test_options_take_numbers_by_name() -> None:

@@ -11,6 +11,7 @@ import pytest
 import bondgraph
 from bondgraph import Course, Log, Scenario
 from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting
+from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.diagnosis.whitening import newey_west, whitening
 
 N, RATE = 8000, 1000.0
@@ -165,7 +166,8 @@ def test_sensors_that_never_move_tell_nothing() -> None:
     found = fitted(text, U=DRIVE, u=DRIVE, y=np.zeros(N))
     assert only(found).interval is None
     moved, still = found.left
-    lagged = math.hypot(5 / math.hypot(1, 7 / 20), 3 / math.hypot(1, 23 / 20))  # of DRIVE
+    w = found.bandwidth
+    lagged = math.hypot(5 / math.hypot(1, 7 / w), 3 / math.hypot(1, 23 / w))  # of DRIVE
     assert moved.after == pytest.approx(lagged / math.sqrt(2), rel=0.01)
     assert moved.noise == 0.0
     assert still.after == still.before == 0.0 and still.rows == moved.rows > 100
@@ -219,7 +221,7 @@ def test_logs_with_gaps_and_several_logs_count_together() -> None:
 
 def test_what_cannot_be_fitted_is_told_with_a_remedy() -> None:
     c = bondgraph.compile(text=ONE, rate=RATE)
-    short = Log(TIME[:300], {"U": DRIVE[:300], "y": DRIVE[:300]}, {}, {})
+    short = Log(TIME[:100], {"U": DRIVE[:100], "y": DRIVE[:100]}, {}, {})
     with pytest.raises(ValueError, match=r"too short .* give one of"):
         c.fit({"a": short})
     with pytest.raises(ValueError, match=r"no residual sees a parameter `Q`.*there is R"):
@@ -324,6 +326,43 @@ def test_the_terms_of_a_residual_are_its_two_sides() -> None:
     assert np.allclose(np.diff(one.time), one.time[1] - one.time[0])
 
 
+def vibration(rate: float = 610.0, seconds: float = 40.0) -> Log:
+    """5.5e-6 y'' + 2.5e-4 y' + 1.1 y = u, some 450 rad/s, driven from 150 to 600 rad/s: exact.
+
+    Noise of 1 % of y.
+    """
+    t = np.arange(round(rate * seconds)) / rate
+    u, y = np.zeros_like(t), np.zeros_like(t)
+    for k, w in enumerate((150.0, 310.0, 420.0, 500.0, 600.0)):
+        drive = np.exp(1j * (w * t + k))
+        u += drive.real
+        y += (drive / (1.1 - 5.5e-6 * w**2 + 2.5e-4j * w)).real
+    y += 0.01 * float(y.std()) * np.random.default_rng(2).standard_normal(len(t))
+    return Log(t, {"u": u, "y": y}, {}, {})
+
+
+VIBRATION = """bg 1
+model M { input u; param m = 6e-6; param d = 3e-4; param k = 1
+          Se:u -> 1:v; v -> I:m; v -> R:d; v -> C:s = 1/k; sensor y = s.q }"""
+
+
+def test_a_machine_that_moves_as_fast_as_it_is_sampled_is_fitted_by_a_faster_filter() -> None:
+    """Behind the usual one, of 12 rad/s, hardly anything of the motion is left."""
+    c, log = bondgraph.compile(text=VIBRATION, rate=610.0), {"run": vibration()}
+    found = c.fit(log)
+    assert 100.0 < found.bandwidth < 0.4 * 610.0
+    usual = c.with_options(bandwidth=12.2).fit(log)
+    assert usual.bandwidth == 12.2 and usual.spread > found.spread + math.log(2.0)
+    for p, truth in zip(found.parameters, (5.5e-6, 2.5e-4, 1.1), strict=True):
+        assert p.value == pytest.approx(truth, rel=0.01), p
+
+
+def test_where_a_faster_filter_tells_little_more_the_usual_one_stays() -> None:
+    """R y = U is told by what moves at 7 and 23 rad/s: of 33 rad/s lets it through."""
+    found = fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.01))
+    assert found.bandwidth == bandwidth_for(RATE, N)
+
+
 def test_an_encoder_has_no_offset() -> None:
     text = """bg 1
     model M { input T : N.m; Se:drive = T -> 1:w; w -> I:J = 1e-3 kg.m^2
@@ -336,7 +375,7 @@ def test_an_encoder_has_no_offset() -> None:
 
 def test_a_long_log_loses_one_warm_up_only() -> None:
     """Logs are read in blocks; the filters go on from one to the next."""
-    c = bondgraph.compile(text=ONE, rate=RATE)
+    c = bondgraph.compile(text=ONE, rate=RATE, bandwidth=20.0)
     time = np.arange(20_000) / RATE
     y = np.sin(7.0 * time)
     draw = 0.01 * np.random.default_rng(1).standard_normal(len(time))
