@@ -13,6 +13,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
+from collections.abc import Mapping
 from contextlib import suppress
 
 from bondgraph.algebra.conjugates import two_valued
@@ -407,7 +408,7 @@ class Chain:
             for row in rows:
                 self.used[row] = True
             return True
-        found = solve_block(self.pool, lines, self.nominal.size)
+        found = solve_block(self.pool, lines, self.nominal.size, self.balanced(equations))
         if found is None:
             return False
         for row in rows:
@@ -419,6 +420,16 @@ class Chain:
         for row, expr in found.left:
             self.loops.row(row, expr)
         return True
+
+    def balanced(self, equations: Mapping[int, Equation]) -> dict[int, Expr]:
+        """By the number of each balance the variable that the bonds of its junction share."""
+        nodes, shared = self.system.graph.nodes, self.system.shared
+        found = {}
+        for row, equation in equations.items():
+            common = nodes[equation.node].common if equation.kind == "balance" else None
+            if common is not None:
+                found[row] = shared.get(common, common)
+        return found
 
     # ------------------------------------------------------------------ result
 

@@ -3,7 +3,10 @@
 Gauss's method: the variable that the fewest equations hold is eliminated by the shortest of them
 (Markowitz, 1957), among those whose coefficient is not small next to the others at the nominal
 values, so that the emitted code is as accurate as a numeric solver (Duff, Erisman and Reid, 1986).
-Coefficients are shared nodes and are never expanded.
+Where each variable has an equation of its own, as the effort of a junction has the balance of that
+junction, that one eliminates it: the equations of a network are symmetric then (Tellegen, 1952) and
+stay so, and half of the coefficients are the other half. Coefficients are shared nodes and are
+never expanded.
 """
 
 from __future__ import annotations
@@ -14,7 +17,7 @@ from collections.abc import Callable, Container, Mapping, Sequence
 from bondgraph.algebra.affine import affine
 from bondgraph.algebra.zero import Constants
 from bondgraph.ir.equation_system import Equation
-from bondgraph.ir.expr import Expr, Pool
+from bondgraph.ir.expr import Expr, Pool, Rational
 from bondgraph.ir.nodes import constant
 from bondgraph.text.tuples import NamedTuple
 
@@ -95,13 +98,17 @@ def linear_equations(
 
 
 def solve_block(
-    pool: Pool, lines: Sequence[LinearEquation], size: Callable[[Expr], float]
+    pool: Pool,
+    lines: Sequence[LinearEquation],
+    size: Callable[[Expr], float],
+    own: Mapping[int, Expr] | None = None,
 ) -> Block | None:
     """The values of all variables of the equations, in known signals.
 
     There may be more equations than variables. `size` gives the nominal value of a coefficient,
-    zero for one that must not be divided by. None where the equations do not determine every
-    variable at these values.
+    zero for one that must not be divided by. `own` has, by the number of an equation, the variable
+    that it is to eliminate if it can. None where the equations do not determine every variable at
+    these values.
 
     >>> from bondgraph.ir.expr import Kind
     >>> p = Pool(); e, f = p.symbol("e", Kind.EFFORT), p.symbol("f", Kind.FLOW)
@@ -112,10 +119,10 @@ def solve_block(
     >>> [(s.variable, s.value) for s in block.solved]
     [(e, u/2), (f, u/(2*R))]
     """
-    elimination = _Elimination(pool, lines, size)
+    elimination = _Elimination(pool, lines, size, own or {})
     if not elimination.run():
         return None
-    left = [(line.number, line.rest) for line in elimination.rows.values()]
+    left = [(row.number, pool.add(*row.rest)) for row in elimination.rows.values()]
     return Block(elimination.back(), left)
 
 
@@ -150,6 +157,10 @@ def products(lines: Sequence[LinearEquation], most: int) -> int:
     return count
 
 
+#: Terms of a sum that is not made before it is asked for.
+_Terms = list[tuple[Rational, Expr]]
+
+
 class _Row:
     """An equation at work: the coefficients of its variables, and their nominal values."""
 
@@ -157,14 +168,27 @@ class _Row:
 
     def __init__(self, line: LinearEquation, sizes: dict[Expr, float]) -> None:
         self.number = line.number
-        self.entries = dict(line.entries)
-        self.rest = line.rest
+        self.entries: dict[Expr, _Terms] = {v: [(1, c)] for v, c in line.entries.items()}
+        self.rest: _Terms = [(1, line.rest)]
         self.sizes = sizes
+
+
+class _Pivot(NamedTuple):
+    """A variable, the coefficients of the equation that eliminated it, what is known there."""
+
+    variable: Expr
+    entries: dict[Expr, Expr]
+    rest: Expr
+    number: int
 
 
 class _Elimination:
     def __init__(
-        self, pool: Pool, lines: Sequence[LinearEquation], size: Callable[[Expr], float]
+        self,
+        pool: Pool,
+        lines: Sequence[LinearEquation],
+        size: Callable[[Expr], float],
+        own: Mapping[int, Expr],
     ) -> None:
         self.pool = pool
         self.constants = Constants()
@@ -172,6 +196,8 @@ class _Elimination:
             at: _Row(line, {v: size(c) for v, c in line.entries.items()})
             for at, line in enumerate(lines)
         }
+        self.own = {own[r.number]: at for at, r in self.rows.items() if r.number in own}
+        self.owned = set(self.own.values())
         _balance([row.sizes for row in self.rows.values()])
         self.holders: dict[Expr, dict[int, None]] = {}
         for at, row in self.rows.items():
@@ -179,59 +205,71 @@ class _Elimination:
                 self.holders.setdefault(variable, {})[at] = None
         self.heap = [(len(rows), v.id, v) for v, rows in self.holders.items()]
         heapq.heapify(self.heap)
-        self.pivots: list[tuple[Expr, _Row]] = []
+        self.late: list[tuple[int, int, Expr]] = []  # what its own equation does not hold yet
+        self.pivots: list[_Pivot] = []
 
     def run(self) -> bool:
         """Eliminate every variable; False if one is left without an equation."""
-        while self.heap:
-            count, _, variable = heapq.heappop(self.heap)
+        while self.heap or self.late:
+            early = bool(self.heap)
+            entry = heapq.heappop(self.heap or self.late)
+            count, _, variable = entry
             holders = self.holders.get(variable)
             if holders is None or len(holders) != count:
                 continue  # an entry of the heap that has been overtaken
+            own = self.own.get(variable)
+            if early and own in self.rows and own not in holders:
+                heapq.heappush(self.late, entry)
+                continue
             sizes = {at: abs(self.rows[at].sizes[variable]) for at in holders}
             least = _THRESHOLD * max(sizes.values(), default=0.0)
             if not least:
                 return False
             fit = [at for at, size in sizes.items() if size >= least]
-            self.take(min(fit, key=lambda at: (len(self.rows[at].entries), at)), variable)
+            self.take(min(fit, key=lambda at: self.rank(at, own)), variable)
         return True
+
+    def rank(self, at: int, own: int | None) -> tuple[bool, bool, int, int]:
+        """An equation as one to eliminate by: its own one first, that of another variable last."""
+        return at != own, at in self.owned, len(self.rows[at].entries), at
 
     def take(self, at: int, variable: Expr) -> None:
         """Eliminate a variable from all other equations by one of them."""
         pool = self.pool
-        own = self.rows.pop(at)
-        for other in own.entries:
+        row = self.rows.pop(at)
+        for other in row.entries:
             del self.holders[other][at]
-        inverse = pool.power(own.entries[variable], -1)
-        scale = 1.0 / own.sizes[variable]
-        others = [(v, c, own.sizes[v]) for v, c in own.entries.items() if v is not variable]
+        entries = {v: pool.add(*terms) for v, terms in row.entries.items()}
+        own = _Pivot(variable, entries, pool.add(*row.rest), row.number)
+        inverse = pool.power(entries[variable], -1)
+        scale = 1.0 / row.sizes[variable]
+        others = [(v, c, row.sizes[v]) for v, c in entries.items() if v is not variable]
         for number in self.holders.pop(variable):
             row = self.rows[number]
-            factor = pool.neg(pool.mul(row.entries.pop(variable), inverse))
+            factor = pool.mul(pool.add(*row.entries.pop(variable)), inverse)
             size = -row.sizes.pop(variable) * scale
             for other, coefficient, weight in others:
-                self.add(number, row, other, pool.mul(factor, coefficient), size * weight)
+                self.subtract(number, other, pool.mul(factor, coefficient), size * weight)
             if own.rest is not pool.zero:
-                row.rest = pool.add((1, row.rest), (1, pool.mul(factor, own.rest)))
+                row.rest.append((-1, pool.mul(factor, own.rest)))
         for other, _, _ in others:
             heapq.heappush(self.heap, (len(self.holders[other]), other.id, other))
-        self.pivots.append((variable, own))
+        self.pivots.append(own)
 
-    def add(self, number: int, row: _Row, variable: Expr, term: Expr, size: float) -> None:
-        """Add to the coefficient of a variable in an equation."""
-        old = row.entries.get(variable)
-        if old is None:
-            row.entries[variable] = term
+    def subtract(self, number: int, variable: Expr, term: Expr, size: float) -> None:
+        """Subtract from the coefficient of a variable in an equation, which grows by `size`."""
+        row = self.rows[number]
+        terms = row.entries.setdefault(variable, [])
+        terms.append((-1, term))
+        if len(terms) == 1:
             row.sizes[variable] = size
             self.holders[variable][number] = None
             return
-        new = self.pool.add((1, old), (1, term))
         sum_ = row.sizes[variable] + size
         small = abs(sum_) <= _CANCELLED * abs(size)
-        if small and self.constants.vanishes(new):
+        if small and self.constants.vanishes(self.pool.add(*terms)):
             del row.entries[variable], row.sizes[variable], self.holders[variable][number]
         else:
-            row.entries[variable] = new
             row.sizes[variable] = sum_ if abs(sum_) > 1e-12 * abs(size) else 0.0
 
     def back(self) -> list[Solved]:
@@ -239,13 +277,13 @@ class _Elimination:
         pool = self.pool
         values: dict[Expr, Expr] = {}
         found = []
-        for variable, row in reversed(self.pivots):
-            terms = [(-1, row.rest)]
-            for other, coefficient in row.entries.items():
+        for variable, entries, rest, number in reversed(self.pivots):
+            terms = [(-1, rest)]
+            for other, coefficient in entries.items():
                 if other is not variable:
                     terms.append((-1, pool.mul(coefficient, values[other])))
-            values[variable] = pool.div(pool.add(*terms), row.entries[variable])
-            found.append(Solved(variable, values[variable], row.number))
+            values[variable] = pool.div(pool.add(*terms), entries[variable])
+            found.append(Solved(variable, values[variable], number))
         return found
 
 

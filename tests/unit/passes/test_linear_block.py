@@ -132,6 +132,28 @@ def test_no_linear_equation_in_a_product_or_under_a_signal() -> None:
     assert line == (7, {x: a}, pool.scale(-3, u))
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_half_of_a_symmetric_block_is_the_other_half(seed: int) -> None:
+    """With an equation of its own for each variable, equal coefficients stay one node."""
+    draw, pool, size = random.Random(seed), Pool(), 12
+    x = [pool.symbol(f"x{k}", Kind.FLOW) for k in range(size)]
+    given = {f"a{i}_{k}": draw.uniform(1, 2) for k in range(size) for i in range(k)}
+    given |= {f"a{k}_{k}": draw.uniform(30, 40) for k in range(size)}
+    lines = []
+    for k in range(size + 1):
+        row = {x[i]: f"a{min(i, k)}_{max(i, k)}" for i in range(size)}
+        given |= dict.fromkeys(row.values() if k == size else (), 1.0)
+        entries = {v: pool.symbol(name, Kind.PARAM) for v, name in row.items()}
+        lines.append(LinearEquation(k, entries, pool.symbol("u", Kind.INPUT)))
+    draw.shuffle(lines)
+    count = []
+    for own in (dict(enumerate(x)), {}):
+        block = solve_block(pool, lines, lambda c: floats([c], given)[0], own)
+        assert block is not None
+        count.append(len(topological([expr for _, expr in block.left])))
+    assert count[0] < 0.75 * count[1]
+
+
 def grid(size: int) -> tuple[str, np.ndarray]:
     """A grid of resistors, with the nodal matrix of Kirchhoff's law: conductances all differ.
 
@@ -170,7 +192,9 @@ def test_grid_of_resistors_is_nodal_analysis() -> None:
     relations = [r.residual.expr for r in c.residuals]
     assert len(relations) == 2
     for relation in relations:
-        assert {s.symbol.name for s in symbols(relation)} >= {"u", "g24", "p0_1"}
+        held = {s.symbol.name for s in symbols(relation)}
+        assert held >= {"u", "g30", "p0_1"}
+        assert sum(f"g{k}" in held for k in (24, 48)) == 1  # the balance at one sensor: its leak
         terms = [abs(x) for x in floats(list(relation.args), given)]
         assert abs(floats([relation], given)[0]) < 1e-12 * sum(terms)
         for name in ("p0_1", "g30", "y48", "y24", "u"):
