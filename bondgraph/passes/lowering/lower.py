@@ -40,7 +40,7 @@ from bondgraph.passes.lowering.program_names import brief, identifier, short
 from bondgraph.passes.lowering.prune import pruned
 from bondgraph.passes.lowering.stages import order
 from bondgraph.passes.lowering.switched import Switched
-from bondgraph.passes.lowering.tape import Large, large
+from bondgraph.passes.lowering.tape import Large, filled, large
 from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
 from bondgraph.text.tuples import NamedTuple
 
@@ -147,9 +147,7 @@ def lower(
         else:
             info = low.info._replace(order=order)
         lowered.append(low._replace(info=info))
-    configure: list[Assignment | PolynomialTape] = []
-    for tape in tapes:
-        configure += [] if tape is None else [*tape.before, tape.statement]
+    configure = filled(builder, [tape for tape in tapes if tape is not None])
     coefs = builder.configure()
     wanted = builder.used
     for tape in tapes:

@@ -7,8 +7,9 @@ reused rows for configure, and its low orders are evaluated to see what a step c
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
-from bondgraph.ir.expr import Expr
+from bondgraph.ir.expr import Expr, below
 from bondgraph.ir.normal import Tape, Term
 from bondgraph.ir.program import Assignment, PolynomialTape, TapeOp, TapeOutput
 from bondgraph.ir.residuals import Residual
@@ -18,6 +19,7 @@ from bondgraph.passes.lowering.polynomials import Effects, Orders, low_orders
 from bondgraph.passes.lowering.procedure import Procedure
 from bondgraph.passes.lowering.program_names import identifier, short
 from bondgraph.passes.lowering.visible import Seen, frequency, split
+from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
 _ENOUGH = 64  # orders that the time unit is judged by
@@ -26,12 +28,12 @@ _ENOUGH = 64  # orders that the time unit is judged by
 class Large(NamedTuple):
     """A large residual: the table for configure and the coefficient arrays by atom.
 
-    `before` computes what the factors of the table have in common. `low` are the first coefficients
-    at the model's numbers, a row a node of the tape, in units of the highest frequency.
+    `scales` are the factors of the table, whose values `statement` has yet to be given. `low` are
+    the first coefficients at the model's numbers, a row a node of the tape, in units of the highest
+    frequency.
     """
 
     tape: Tape
-    before: list[Assignment]
     statement: PolynomialTape
     arrays: dict[Expr, tuple[str, int]]
     scales: list[Expr]
@@ -89,16 +91,12 @@ def large(
                 shifted[edge.scale, edge.shift] = value
         at = scales.setdefault(value, len(scales))
         table.append(TapeOp(target, source, edge.shift, at, length_, fresh))
-    resolved = builder.resolve(list(scales))
-    before: list[Assignment] = []
-    work = Procedure(builder.pool, builder.leaf, before.append, builder.names, "")
-    values = work.values(resolved, origin)
     outputs = [TapeOutput(arrays[f.atom][0], where[f.node], f.degree + 1) for f in tape.leaves]
     statement = PolynomialTape(
         name,
         length,
         rows,
-        tuple(values),
+        (),
         tuple(table),
         tuple(outputs),
         f"{residual.name}: factors of all derivatives",
@@ -108,7 +106,28 @@ def large(
     low = low_orders(builder, tape, start, _ENOUGH)
     time_unit = 1.0 if low is None else _time_unit(low, start)
     kept = None if low is None else low[:, : highest + 2].copy()
-    return Large(tape, before, statement, arrays, list(scales), time_unit, kept)
+    return Large(tape, statement, arrays, list(scales), time_unit, kept)
+
+
+def filled(builder: Builder, tapes: Sequence[Large]) -> list[Assignment | PolynomialTape]:
+    """The tables with the values of their factors, behind the statements that these have need of.
+
+    What several residuals have in common, as those of one network have, is computed once.
+    """
+    found: list[Assignment | PolynomialTape] = []
+    work = Procedure(builder.pool, builder.leaf, found.append, builder.names, "")
+    roots = builder.resolve([scale for one in tapes for scale in one.scales])
+    places: dict[Expr, Span | None] = {}
+    left = iter(roots)
+    for one in tapes:
+        own = [next(left) for _ in one.scales]
+        for node in below(own, stop=places.__contains__):
+            places.setdefault(node, one.statement.origin)
+    values = iter(work.values(roots, places))
+    for one in tapes:
+        scales = tuple([next(values) for _ in one.scales])
+        found.append(one.statement._replace(scales=scales))
+    return found
 
 
 def _allocate(
