@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from bondgraph.ir.expr import Expr, Op
+from bondgraph.ir.expr import Expr, Op, topological
 
 
 def summands(expr: Expr) -> dict[Expr, Fraction]:
@@ -16,13 +16,10 @@ def summands(expr: Expr) -> dict[Expr, Fraction]:
     >>> found[a], found[b]
     (Fraction(7, 1), Fraction(2, 1))
     """
-    found: dict[Expr, Fraction] = {}
-    stack = [(Fraction(1), expr)]
-    while stack:
-        factor, node = stack.pop()
-        if node.op is Op.ADD:
-            pairs = node.terms
-            stack.extend((factor * c, a) for c, a in pairs)
-        else:
-            found[node] = found.get(node, Fraction(0)) + factor
+    found = {expr: Fraction(1)}
+    for node in reversed(topological([expr], stop=lambda n: n.op is not Op.ADD)):
+        if node.op is Op.ADD:  # after all that it is a term of: once, however often it is one
+            factor = found.pop(node)
+            for c, arg in node.terms:
+                found[arg] = found.get(arg, 0) + factor * c
     return {node: c for node, c in found.items() if c}

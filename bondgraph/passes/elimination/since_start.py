@@ -21,13 +21,14 @@ def since_start(system: ReducedSystem) -> ReducedSystem:
 
     Those of loops, of single positions of switches and with undeclared initial values stay.
     """
-    pool = system.system.graph.pool
-    return system._replace(closings=tuple([_since_start(pool, c) for c in system.closings]))
+    pool, fixed = system.system.graph.pool, dict[Expr, bool]()
+    closings = [_since_start(pool, c, fixed) for c in system.closings]
+    return system._replace(closings=tuple(closings))
 
 
-def _since_start(pool: Pool, closing: Closing) -> Closing:
+def _since_start(pool: Pool, closing: Closing, fixed: dict[Expr, bool]) -> Closing:
     plain = not (closing.loop or closing.each or closing.differentiated)
-    if not plain or not all(_is_rate(term) for term in summands(closing.expr)):
+    if not plain or not all(_is_rate(term, fixed) for term in summands(closing.expr)):
         return closing
     states: dict[Expr, Equation] = {}  # by their rates, for which nothing is put in
     used = [(s.equation, s.how) for s in closing.steps]
@@ -45,7 +46,7 @@ def _since_start(pool: Pool, closing: Closing) -> Closing:
     kept = []
     for rate, equation in states.items():
         parts = affine(pool, told, rate)
-        if parts is None or not constant(parts[0]):
+        if parts is None or not constant(parts[0], fixed):
             return closing
         slope, told = parts
         assert equation.state is not None and equation.initial is not None
@@ -54,8 +55,8 @@ def _since_start(pool: Pool, closing: Closing) -> Closing:
     return closing._replace(expr=found, raw=found, differentiated=-1) if is_zero(told) else closing
 
 
-def _is_rate(term: Expr) -> bool:
-    """Whether a term is a derivative with a constant factor."""
+def _is_rate(term: Expr, fixed: dict[Expr, bool]) -> bool:
+    """Whether a term is a derivative with a constant factor; `fixed` is known of parts."""
     factors = term.factors if term.op is Op.MUL else ((term, 1),)
-    moving = [(a, e) for a, e in factors if not constant(a)]
+    moving = [(a, e) for a, e in factors if not constant(a, fixed)]
     return len(moving) == 1 and moving[0][1] == 1 and moving[0][0].op is Op.DER
