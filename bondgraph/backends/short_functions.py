@@ -93,6 +93,7 @@ def parts(
     """
     members: list[int | Piece] = []
     left: list[Step] = []
+    handed = _Handed(steps, after)
     for key, run in groupby(range(len(steps)), lambda at: steps[at].key.split("_")[:depth]):
         numbers = list(run)
         own = [steps[k] for k in numbers]
@@ -101,7 +102,7 @@ def parts(
             members += numbers
             left += own
             continue
-        takes, gives = _handed(steps, numbers[0], numbers[-1] + 1, after)
+        takes, gives = handed.over(numbers[0], numbers[-1] + 1)
         inside: Iterable[int | Piece] = range(len(own))
         if lines > most:
             inside = parts(own, most, most, depth + 1, frozenset(gives))
@@ -130,8 +131,9 @@ def _cut(
         cuts = list(_chosen(steps, room, most, after))
         if not cuts:
             break
+        handed = _Handed([*steps], after)
         for start, end in reversed(cuts):
-            takes, gives = _handed(steps, start, end, after)
+            takes, gives = handed.over(start, end)
             members[start:end] = [Piece(tuple(members[start:end]), takes, gives)]
             steps[start:end] = [_called(steps[start:end], takes, gives)]
     return tuple(members)
@@ -143,19 +145,30 @@ def _called(steps: Sequence[Step], takes: tuple[str, ...], gives: tuple[str, ...
     return Step(gives, frozenset(takes), key, "", _call(takes, gives))
 
 
-def _handed(
-    steps: Sequence[Step], start: int, end: int, after: frozenset[str]
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """What a stretch takes and gives, in the order in which it is computed."""
-    inside = {v for step in steps[start:end] for v in step.gives}
-    taken = {v for step in steps[start:end] for v in step.takes} - inside
-    read = after.union(*(step.takes for step in steps[end:]))
-    before = [v for step in steps[:start] for v in step.gives]
-    outside = sorted(taken - {*before})  # of a function around it
-    return (
-        (*outside, *(v for v in before if v in taken)),
-        tuple(v for step in steps[start:end] for v in step.gives if v in read),
-    )
+class _Handed:
+    """What stretches of some statements take and give; the values `after` are read behind all."""
+
+    def __init__(self, steps: Sequence[Step], after: frozenset[str]) -> None:
+        self.steps = steps
+        self.place: dict[str, int] = {}  # of each value in the order in which they are computed
+        self.given: dict[str, int] = {}  # by which statement
+        self.last = {v: at for at, step in enumerate(steps) for v in step.takes}
+        self.last |= dict.fromkeys(after, len(steps))
+        for at, step in enumerate(steps):
+            for v in step.gives:
+                self.place.setdefault(v, len(self.place))
+                self.given.setdefault(v, at)
+
+    def over(self, start: int, end: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """What a stretch takes and gives, in the order in which it is computed."""
+        own = self.steps[start:end]
+        inside = {v for step in own for v in step.gives}
+        taken = {v for step in own for v in step.takes} - inside
+        before = {v for v in taken if self.given.get(v, start) < start}
+        return (
+            (*sorted(taken - before), *sorted(before, key=self.place.__getitem__)),
+            tuple(v for step in own for v in step.gives if self.last.get(v, -1) >= end),
+        )
 
 
 def together(keys: Iterable[str]) -> str:
