@@ -117,11 +117,16 @@ class Valued(Evaluated[Number]):
             above = adjoint.get(node)
             if not above:
                 continue
-            own = [cast(Number, self.known[a]) for a in node.args]
+            value = float(cast(Number, self.known[node]))
             if node.op is Op.SYM:
-                slopes[node.symbol.name] = above * (float(cast(Number, self.known[node])) or 1.0)
+                slopes[node.symbol.name] = above * (value or 1.0)
+                continue
+            own = [cast(Number, self.known[a]) for a in node.args]
+            plain = node.op is Op.MUL and value and math.isfinite(value)
             for i, arg in enumerate(node.args):
-                adjoint[arg] = adjoint.get(arg, 0.0) + above * _slope(node, own, i)
+                # of a product by a factor: all others at once
+                slope = node.exponents[i] * value / float(own[i]) if plain else _slope(node, own, i)
+                adjoint[arg] = adjoint.get(arg, 0.0) + above * slope
         return slopes
 
 

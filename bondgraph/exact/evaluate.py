@@ -104,6 +104,7 @@ def _numbers(roots: tuple[Expr, ...], sample: Assignment) -> dict[Expr, Number] 
     if nodes is None:
         return None
     numbers, values = sample.algebra.numbers, dict[Expr, Number]()
+    powers = _Powers(numbers, values)
     try:
         for node in nodes:
             total: Number
@@ -114,7 +115,7 @@ def _numbers(roots: tuple[Expr, ...], sample: Assignment) -> dict[Expr, Number] 
             elif node.op is Op.MUL:
                 total = 1
                 for a, e in zip(node.args, node.exponents, strict=True):
-                    total *= values[a] if e == 1 else _power(numbers, values[a], e)
+                    total *= values[a] if e == 1 else powers.of(a, e)
             elif node.op is Op.SYM:
                 total = sample.value(node)[0]
             else:
@@ -130,15 +131,29 @@ def weighed(numbers: Numbers, coefficient: Rational) -> Number:
     return coefficient if isinstance(coefficient, int) else numbers.fraction(coefficient)
 
 
-def _power(numbers: Numbers, x: Number, exponent: int) -> Number:
-    base = x if exponent > 0 else numbers.inverse(x)
-    return base if exponent in (1, -1) else base ** abs(exponent)
+class _Powers:
+    """Integer powers of values; a pivot is divided by again and again, and inverted once."""
+
+    def __init__(self, numbers: Numbers, values: Mapping[Expr, Number]) -> None:
+        self.numbers, self.values = numbers, values
+        self.inverses: dict[Expr, Number] = {}
+
+    def of(self, node: Expr, exponent: int) -> Number:
+        """The value of a node to a power; raises `Undefined` for a negative one of zero."""
+        if exponent > 0:
+            base = self.values[node]
+        elif node in self.inverses:
+            base = self.inverses[node]
+        else:
+            base = self.inverses[node] = self.numbers.inverse(self.values[node])
+        return base if exponent in (1, -1) else base ** abs(exponent)
 
 
 def _number_slopes(root: Expr, values: dict[Expr, Number], numbers: Numbers) -> dict[Expr, Number]:
     """The derivatives of a root that is made of sums and products, where they are not zero."""
     adjoints: dict[Expr, Number] = {root: 1}
     out: dict[Expr, Number] = {}
+    raised = _Powers(numbers, values).of
     for node in reversed(outline(root).nodes):
         adjoint = adjoints.pop(node, 0)
         if not numbers.nonzero(adjoint):
@@ -148,9 +163,9 @@ def _number_slopes(root: Expr, values: dict[Expr, Number], numbers: Numbers) -> 
             for c, a in zip(node.coefficients, node.args, strict=True):
                 adjoints[a] = adjoints.get(a, 0) + weighed(numbers, c) * adjoint
         elif node.op is Op.MUL:
-            powers = [_power(numbers, values[a], e) for a, e in node.factors]
+            powers = [raised(a, e) for a, e in node.factors]
             for at, (a, e) in enumerate(node.factors):
-                slope = adjoint if e == 1 else adjoint * e * _power(numbers, values[a], e - 1)
+                slope = adjoint if e == 1 else adjoint * e * raised(a, e - 1)
                 for k, power in enumerate(powers):
                     if k != at:
                         slope *= power

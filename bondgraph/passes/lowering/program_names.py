@@ -92,11 +92,12 @@ _KINDS = {
 
 
 def _longer(node: Expr, most: int) -> bool:
-    """Whether an expression that is written out, shared parts as often as used, has more nodes."""
+    """Whether an expression takes more letters at least: a sign a node, each name as it is."""
     stack = [node]
     while stack and most >= 0:
-        stack.extend(stack.pop().args)
-        most -= 1
+        node = stack.pop()
+        stack.extend(node.args)
+        most -= len(_spoken(node.symbol.name)) if node.op is Op.SYM else 1
     return most < 0
 
 
@@ -105,7 +106,7 @@ def brief(node: Expr, most: int = 240) -> str:
 
     A formula is never cut: half of one says less than a word.
     """
-    if not _longer(node, 2 * most):
+    if not _longer(node, most):
         text = show(node, {s: _spoken(s.symbol.name) for s in symbols(node)})
         if len(text) <= most:
             return text
