@@ -4,8 +4,9 @@ shared parts named by the variable of the model that they are."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
+from functools import cache
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, Symbol, topological
 from bondgraph.ir.graph import BondGraph
@@ -108,14 +109,14 @@ class Parts(NamedTuple):
     """A relation as nodes: `named` are its shared parts, each with the name that stands for it.
 
     `order` has all nodes, arguments first; `variables` names every node that is the value of a
-    variable of the model. `taken` are names that no part may be given.
+    variable of the model. `taken` tells the names that no part may be given.
     """
 
     root: Expr
     order: tuple[Expr, ...]
     named: dict[Expr, str]
     variables: dict[Expr, str]
-    taken: frozenset[str] = frozenset()
+    taken: Callable[[], frozenset[str]] = frozenset
 
 
 def parts(graph: BondGraph, residual: Residual) -> Parts:
@@ -127,7 +128,7 @@ def parts(graph: BondGraph, residual: Residual) -> Parts:
     for step, value in zip(known, values, strict=True):
         if value.args:
             names.setdefault(value, step.variable.symbol.name)
-    return shared(root, names, _written(graph, residual))
+    return shared(root, names, lambda: _written(graph, residual))
 
 
 def _written(graph: BondGraph, residual: Residual) -> frozenset[str]:
@@ -151,10 +152,13 @@ def _names_in(order: Iterable[Expr]) -> Iterator[str]:
             yield node.name.rpartition(":")[2]
 
 
-def shared(root: Expr, variables: dict[Expr, str], written: frozenset[str] = frozenset()) -> Parts:
+def shared(
+    root: Expr, variables: dict[Expr, str], written: Callable[[], frozenset[str]] = frozenset
+) -> Parts:
     """The parts of an expression that occur more than once, named by `variables` or x1, x2, ...
 
-    No part is called like anything that occurs in the expression, or is `written` in its model.
+    No part is called like anything that occurs in the expression, or is `written` in its model:
+    thousands of names, which are asked for only if a part has none.
 
     >>> from bondgraph.ir.expr import Kind
     >>> p = Pool(); x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
@@ -169,12 +173,20 @@ def shared(root: Expr, variables: dict[Expr, str], written: frozenset[str] = fro
         size[node] = 1 + sum(min(size[a], _SHORT) for a in node.args)
         for arg in node.args:
             uses[arg] += 1
-    taken = written.union(_names_in(order), variables.values())
-    spare = Spare(taken)
+
+    @cache
+    def taken() -> frozenset[str]:
+        return written().union(_names_in(order), variables.values())
+
+    spare: Spare | None = None
     chosen: dict[Expr, str] = {}
     for node in order:
         if uses[node] > 1 and size[node] > _SHORT and node.op is not Op.NUM:
-            chosen[node] = variables.get(node) or spare.name(len(chosen) + 1)
+            name = variables.get(node)
+            if name is None:
+                spare = spare or Spare(taken())
+                name = spare.name(len(chosen) + 1)
+            chosen[node] = name
     return Parts(root, tuple(order), chosen, variables, taken)
 
 

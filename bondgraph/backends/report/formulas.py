@@ -86,7 +86,7 @@ def _row(head: str, parts: list[str]) -> str:
 def readable(parts: Parts) -> dict[Expr, str]:
     """Names for the shared parts, for implicit numbers, and for what is nested too deep to read."""
     named = dict(parts.named)
-    spare = Spare(parts.taken.union(named.values()))
+    spare = Spare(parts.taken().union(named.values()))
     depth: dict[Expr, int] = {}
     count = len(named)
     for node in parts.order:
