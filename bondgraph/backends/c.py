@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
+from functools import cache, cached_property
 
 from bondgraph.backends import decision, listing
 from bondgraph.backends.blocks import Block
@@ -609,7 +609,7 @@ class Code:
     def _block(self, number: int, block: Block) -> dict[str, object]:
         """The holes of block.c.j2."""
         spelling, target = self.spelling, self.target
-        infos = [r for r in self.program.residuals if r.name in block.residuals]
+        infos = self.spelling.infos(block)
         about = block_about(infos)
         speller = CodeSpeller(
             target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
@@ -678,9 +678,13 @@ class Code:
         heads: Mapping[str, str] | None = None,
         noun: str = "a part",
     ) -> Functions:
+        return Functions(self.target, "real", arguments, self._reserved, heads, noun)
+
+    @cached_property
+    def _reserved(self) -> set[str]:
+        """The names of functions that there are whatever is cut into parts."""
         taken = {f"{self._verb}_{block.name}" for block in self.spelling.blocks}
-        taken |= {*self.spelling.tables.values(), f"{self.own}compute_coefficients"}
-        return Functions(self.target, "real", arguments, taken, heads, noun)
+        return taken | {*self.spelling.tables.values(), f"{self.own}compute_coefficients"}
 
     def _statements(
         self,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import accumulate
 from math import ceil, floor, inf, log2
 
 from bondgraph.backends import listing
@@ -25,8 +26,8 @@ HOLD, SETTLED = 10, 2
 #: Sizes on board are whole eighths of an octave; so much is added to what is least, and what a
 #: residual has to be out for to be seen is counted from the sixteenth part on.
 EIGHTH, LEAST, FIRST = 2.0**0.125, 128, 0.0625
-#: Codes of sizes: the residual does not see the fault; it shows any size; it never is sure to.
-UNSEEN, ANY, NO_SIZE = 0, 0, 255
+#: Codes of sizes: the residual shows any size; it never is sure to.
+ANY, NO_SIZE = 0, 255
 
 
 class Tuned(NamedTuple):
@@ -45,14 +46,15 @@ UNTUNED = Tuned({}, "", {}, 0.0)
 
 
 class FaultClass(NamedTuple):
-    """Faults that the same residuals see, with codes of sizes by residual.
+    """Faults that the same residuals see, with the numbers of these and codes of sizes for each.
 
     A residual that is out, so many eighths of an octave above a sixteenth of what makes it sure to
-    be, makes a fault so much larger than what is `least`; zero if it does not see the fault. One
-    that is quiet speaks against a fault of the size that it is `sure` to show, and above.
+    be, makes a fault so much larger than what is `least`. One that is quiet speaks against a fault
+    of the size that it is `sure` to show, and above.
     """
 
     faults: tuple[str, ...]
+    seen_by: tuple[int, ...]
     least: tuple[int, ...]
     sure: tuple[int, ...]
 
@@ -76,16 +78,14 @@ def fault_classes(program: Program, tuned: Tuned = UNTUNED) -> tuple[FaultClass,
     for fault in dict.fromkeys(f for r in residuals for f in r.faults):
         if fault in entries:
             rows.setdefault(tuple(entries[fault]), []).append(fault)
-    size = range(len(residuals))
     found = []
     for row, faults in rows.items():
-        sees = {at for at, _ in row}
+        seen_by = tuple([at for at, _ in row])
         if tuned.source:
-            sizes = [_of_class(faults, tuned.shows.get(r.name, {})) for r in residuals]
+            codes = [_of_class(faults, tuned.shows.get(residuals[at].name, {})) for at in seen_by]
         else:
-            sizes = [(1, ANY if (at, True) in row else NO_SIZE) for at in size]
-        codes = [own if at in sees else (UNSEEN, NO_SIZE) for at, own in enumerate(sizes)]
-        found.append(FaultClass(tuple(faults), *zip(*codes, strict=True)))
+            codes = [(1, ANY if sure else NO_SIZE) for _, sure in row]
+        found.append(FaultClass(tuple(faults), seen_by, *zip(*codes, strict=True)))
     return tuple(found)
 
 
@@ -115,11 +115,8 @@ def c_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]
     def real(x: float) -> str:
         return f"{prefix}_CONSTANT({digits(x)})"
 
-    none = [UNSEEN] * len(program.residuals)
-
-    def table(rows: list[Sequence[int]]) -> list[str]:
-        words = [[f"{x}u" for x in row] for row in rows or [none]]
-        return [line for row in words for line in _row(row, "{}", target)]
+    def table(numbers: Iterable[int]) -> list[str]:
+        return listing.table_lines([f"{x}u," for x in numbers] or ["0u,"], target, 4)
 
     stem = snake(program.name)
     return {
@@ -141,21 +138,28 @@ def c_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]
         "none_class": "" if own else " + 1",
         "fault_names": listing.table_lines(names or ['"",'], target, 4),
         "fault_class": listing.table_lines(place or ["0u,"], target, 4),
-        "least_sizes": table([c.least for c in own]),
-        "sure_sizes": table([c.sure for c in own]),
+        "none_seen": "" if own else " + 1",
+        "entry_count": sum(len(c.seen_by) for c in own),
+        "first_entries": table(accumulate([len(c.seen_by) for c in own], initial=0)),
+        "seen_by": table(at for c in own for at in c.seen_by),
+        "least_sizes": table(x for c in own for x in c.least),
+        "sure_sizes": table(x for c in own for x in c.sure),
     }
 
 
 def python_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]:
     """The holes of diagnosis.py.j2."""
     own = fault_classes(program, tuned)
+
+    def table(rows: Iterable[Iterable[object]]) -> list[str]:
+        return [line for row in rows for line in _row([*map(str, row)], "()", target)]
+
     return {
         **_both(program, tuned, digits, target),
-        "class_names": [
-            line for c in own for line in _row([f'"{f}"' for f in c.faults], "()", target)
-        ],
-        "least_sizes": [line for c in own for line in _row([*map(str, c.least)], "()", target)],
-        "sure_sizes": [line for c in own for line in _row([*map(str, c.sure)], "()", target)],
+        "class_names": table([f'"{f}"' for f in c.faults] for c in own),
+        "seen_by": table(c.seen_by for c in own),
+        "least_sizes": table(c.least for c in own),
+        "sure_sizes": table(c.sure for c in own),
     }
 
 

@@ -430,7 +430,7 @@ class _Part:
 
     def _block(self, number: int, block: Block) -> dict[str, object]:
         spelling, target = self.spelling, self.target
-        infos = [r for r in self.program.residuals if r.name in block.residuals]
+        infos = spelling.infos(block)
         unheard = [f"s.{name}" for name in spelling.unheard(block)]
         results = [f"r.{spelling.residuals[r]}" for r in block.residuals]
         return {

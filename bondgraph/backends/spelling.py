@@ -9,7 +9,16 @@ from functools import cached_property
 from bondgraph.backends.blocks import Block, blocks, lines
 from bondgraph.backends.identifiers import identifier, snake, spellings
 from bondgraph.backends.target import Target
-from bondgraph.ir.program import Known, Mode, PolynomialTape, Program, Ref, Statement, flat
+from bondgraph.ir.program import (
+    Known,
+    Mode,
+    PolynomialTape,
+    Program,
+    Ref,
+    ResidualInfo,
+    Statement,
+    flat,
+)
 from bondgraph.ir.tables import backwards, is_map
 
 #: Suffixes of the further members that exact takes for one signal.
@@ -36,6 +45,7 @@ class Spelling:
         self.target = target
         self.prefix = f"{snake(program.name).upper()}_"
         self._known = {k.name: k for k in program.read}
+        self._infos = {r.name: r for r in program.residuals}
         self._arrays = {f.name for f in program.coefs if f.size}
         words = target.words
         self.params = spellings((f.name for f in program.params), words)
@@ -121,6 +131,10 @@ class Spelling:
             taken.add(own)
             found[key] = own
         return found
+
+    def infos(self, block: Block) -> list[ResidualInfo]:
+        """What there is to say of the residuals of a block."""
+        return [self._infos[name] for name in block.residuals]
 
     def unheard(self, block: Block) -> list[str]:
         """The members of a sample that can be NaN and no residual of the block need be so then."""

@@ -2430,34 +2430,28 @@ const char khepera_residual_name[KHEPERA_RESIDUALS][3] = {
 };
 
 /*
- * Signatures, as sizes of faults in eighths of an octave. A residual in alarm makes a fault so much
- * larger than what is least here as it is out; 0: it does not see the faults of the class.
+ * Signatures: the faults of class c are seen by the residuals of entries first_entry[c] and up to
+ * first_entry[c + 1].
  */
-static const uint8_t least_size[KHEPERA_CLASSES][KHEPERA_RESIDUALS] = {
-    {1u, 0u, 0u, 0u, 0u},
-    {1u, 1u, 0u, 0u, 0u},
-    {1u, 1u, 0u, 0u, 0u},
-    {0u, 1u, 0u, 0u, 0u},
-    {0u, 0u, 1u, 0u, 0u},
-    {0u, 0u, 1u, 1u, 0u},
-    {0u, 0u, 1u, 1u, 0u},
-    {0u, 0u, 0u, 1u, 0u},
-    {0u, 0u, 0u, 0u, 1u},
-    {0u, 0u, 0u, 0u, 1u},
+static const uint32_t first_entry[KHEPERA_CLASSES + 1] = {
+    0u, 1u, 3u, 5u, 6u, 7u, 9u, 11u, 12u, 13u, 14u,
+};
+
+static const uint16_t seen_by[14] = {
+    0u, 0u, 1u, 0u, 1u, 1u, 2u, 2u, 3u, 2u, 3u, 3u, 4u, 4u,
+};
+
+/*
+ * Sizes of faults in eighths of an octave: a residual in alarm makes a fault so much larger than
+ * what is least here as it is out.
+ */
+static const uint8_t least_size[14] = {
+    1u, 1u, 1u, 1u, 1u, 1u, 1u, 1u, 1u, 1u, 1u, 1u, 1u, 1u,
 };
 
 /* A residual is sure to show a fault of this size; 255: of no size. */
-static const uint8_t sure_size[KHEPERA_CLASSES][KHEPERA_RESIDUALS] = {
-    {0u, 255u, 255u, 255u, 255u},
-    {0u, 0u, 255u, 255u, 255u},
-    {0u, 255u, 255u, 255u, 255u},
-    {255u, 0u, 255u, 255u, 255u},
-    {255u, 255u, 0u, 255u, 255u},
-    {255u, 255u, 0u, 0u, 255u},
-    {255u, 255u, 0u, 255u, 255u},
-    {255u, 255u, 255u, 0u, 255u},
-    {255u, 255u, 255u, 255u, 255u},
-    {255u, 255u, 255u, 255u, 0u},
+static const uint8_t sure_size[14] = {
+    0u, 0u, 0u, 0u, 255u, 0u, 0u, 0u, 0u, 0u, 255u, 0u, 255u, 0u,
 };
 
 /* The peak of residual k since it went into alarm, beside what is sure to be one. */
@@ -2487,32 +2481,40 @@ static int eighths(real peak)
     return 255;
 }
 
-/* How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out. */
-static int size_of(const khepera_diagnosis *d, int c)
+/*
+ * How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out, as it
+ * is not seen by all of the alarms.
+ */
+static int size_of(const khepera_diagnosis *d, int c, int alarms)
 {
+    const uint32_t begin = first_entry[c];
+    const uint32_t end = first_entry[c + 1];
     int size = 0;
-    int k;
+    int seen = 0;
+    uint32_t i;
 
-    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+    for (i = begin; i < end; ++i) {
+        const int k = (int)seen_by[i];
+
         if (d->state[k] == KHEPERA_ALARM) {
             const int n = eighths(d->peak[k]);
 
-            if (least_size[c][k] == 0u) {
-                return -1;
+            if (n > 0 && n + (int)least_size[i] > size) {
+                size = n + (int)least_size[i];
             }
-            if (n > 0 && n + (int)least_size[c][k] > size) {
-                size = n + (int)least_size[c][k];
-            }
+            ++seen;
         }
     }
-    return size;
+    return seen == alarms ? size : -1;
 }
 
 /* What is left of the faults of class c. */
-static khepera_candidate left_of(const khepera_diagnosis *d, int c)
+static khepera_candidate left_of(const khepera_diagnosis *d, int c, int alarms)
 {
-    const int size = size_of(d, c);
-    int k;
+    const uint32_t begin = first_entry[c];
+    const uint32_t end = first_entry[c + 1];
+    const int size = size_of(d, c, alarms);
+    uint32_t i;
 
     if (size < 0) {
         return KHEPERA_RULED_OUT;
@@ -2520,8 +2522,9 @@ static khepera_candidate left_of(const khepera_diagnosis *d, int c)
     if (d->settled < d->window) {
         return KHEPERA_LIKELY; /* too soon for what is quiet to say anything */
     }
-    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
-        const int sure = (int)sure_size[c][k];
+    for (i = begin; i < end; ++i) {
+        const int k = (int)seen_by[i];
+        const int sure = (int)sure_size[i];
 
         if (d->state[k] == KHEPERA_HEALTHY && sure != 255 && sure <= size) {
             return KHEPERA_SMALL;
@@ -2623,11 +2626,16 @@ static bool watch(
 static void judge(khepera_diagnosis *d)
 {
     int likely = 0;
+    int alarms = 0;
     int c;
+    int k;
 
+    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+        alarms += d->state[k] == KHEPERA_ALARM ? 1 : 0;
+    }
     d->fault_class = KHEPERA_UNKNOWN;
     for (c = 0; c < KHEPERA_CLASSES; ++c) {
-        const khepera_candidate left = left_of(d, c);
+        const khepera_candidate left = left_of(d, c, alarms);
 
         d->candidate[c] = (uint8_t)left;
         if (left == KHEPERA_LIKELY) {

@@ -2458,28 +2458,39 @@ CLASSES: tuple[tuple[str, ...], ...] = (
     ("RL", "LL", "CL"),
     ("robot.Uin", "robot.Us"),
 )
-#: Signatures, as sizes of faults in eighths of an octave. A residual in alarm makes a fault so much
-#: larger than what is least here as it is out; 0: it does not see the faults of the class.
+#: Signatures: the numbers of the residuals that see the faults, by class.
+_SEEN_BY: tuple[tuple[int, ...], ...] = (
+    (0, 1),
+    (0,),
+    (1,),
+    (2, 3),
+    (2,),
+    (3,),
+    (4,),
+    (4,),
+)
+#: For each of these sizes of faults in eighths of an octave: a residual in alarm makes a fault so
+#: much larger than what is least here as it is out.
 _LEAST_SIZES: tuple[tuple[int, ...], ...] = (
-    (1, 1, 0, 0, 0),
-    (1, 0, 0, 0, 0),
-    (0, 1, 0, 0, 0),
-    (0, 0, 1, 1, 0),
-    (0, 0, 1, 0, 0),
-    (0, 0, 0, 1, 0),
-    (0, 0, 0, 0, 1),
-    (0, 0, 0, 0, 1),
+    (1, 1),
+    (1,),
+    (1,),
+    (1, 1),
+    (1,),
+    (1,),
+    (1,),
+    (1,),
 )
 #: A residual is sure to show a fault of this size; 255: of no size.
 _SURE_SIZES: tuple[tuple[int, ...], ...] = (
-    (0, 0, 255, 255, 255),
-    (0, 255, 255, 255, 255),
-    (255, 0, 255, 255, 255),
-    (255, 255, 0, 0, 255),
-    (255, 255, 0, 255, 255),
-    (255, 255, 255, 0, 255),
-    (255, 255, 255, 255, 255),
-    (255, 255, 255, 255, 0),
+    (0, 0),
+    (0,),
+    (0,),
+    (0, 0),
+    (0,),
+    (0,),
+    (255,),
+    (0,),
 )
 #: Names of the residuals.
 RESIDUALS = (
@@ -2632,21 +2643,23 @@ class Diagnosis:
         """Which classes of faults the residuals leave, and the one if it is one."""
         both = zip(self.state, self._peak, strict=True)
         peaks = [_eighths(peak) if state == ALARM else -1 for state, peak in both]
-        self.candidate = [self._left(c, peaks) for c in range(len(CLASSES))]
+        alarms = self.state.count(ALARM)
+        self.candidate = [self._left(c, peaks, alarms) for c in range(len(CLASSES))]
         one = self.candidate.count(LIKELY) == 1 and self._settled >= 2 * self.row
         self.fault_class = self.candidate.index(LIKELY) if one else None
 
-    def _left(self, c: int, peaks: Sequence[int]) -> int:
-        """What is left of the faults of class c; peaks are -1 where there is no alarm."""
-        size = 0
-        for least, peak in zip(_LEAST_SIZES[c], peaks, strict=True):
-            if peak >= 0 and least == 0:
-                return RULED_OUT
-            if peak > 0:
-                size = max(size, peak + least)
+    def _left(self, c: int, peaks: Sequence[int], alarms: int) -> int:
+        """What is left of the faults of class c; peaks are -1 but for so many alarms."""
+        size = seen = 0
+        for k, least in zip(_SEEN_BY[c], _LEAST_SIZES[c], strict=True):
+            seen += peaks[k] >= 0
+            if peaks[k] > 0:
+                size = max(size, peaks[k] + least)
+        if seen < alarms:
+            return RULED_OUT
         if self._settled >= self.window:
-            for sure, state in zip(_SURE_SIZES[c], self.state, strict=True):
-                if state == HEALTHY and sure != 255 and sure <= size:
+            for k, sure in zip(_SEEN_BY[c], _SURE_SIZES[c], strict=True):
+                if self.state[k] == HEALTHY and sure != 255 and sure <= size:
                     return SMALL
         return LIKELY
 

@@ -513,18 +513,28 @@ const char rigid_gear_residual_name[RIGID_GEAR_RESIDUALS][3] = {
 };
 
 /*
- * Signatures, as sizes of faults in eighths of an octave. A residual in alarm makes a fault so much
- * larger than what is least here as it is out; 0: it does not see the faults of the class.
+ * Signatures: the faults of class c are seen by the residuals of entries first_entry[c] and up to
+ * first_entry[c + 1].
  */
-static const uint8_t least_size[RIGID_GEAR_CLASSES][RIGID_GEAR_RESIDUALS] = {
-    {1u, 0u},
-    {1u, 1u},
+static const uint32_t first_entry[RIGID_GEAR_CLASSES + 1] = {
+    0u, 1u, 3u,
+};
+
+static const uint16_t seen_by[3] = {
+    0u, 0u, 1u,
+};
+
+/*
+ * Sizes of faults in eighths of an octave: a residual in alarm makes a fault so much larger than
+ * what is least here as it is out.
+ */
+static const uint8_t least_size[3] = {
+    1u, 1u, 1u,
 };
 
 /* A residual is sure to show a fault of this size; 255: of no size. */
-static const uint8_t sure_size[RIGID_GEAR_CLASSES][RIGID_GEAR_RESIDUALS] = {
-    {0u, 255u},
-    {0u, 0u},
+static const uint8_t sure_size[3] = {
+    0u, 0u, 0u,
 };
 
 /* The peak of residual k since it went into alarm, beside what is sure to be one. */
@@ -554,32 +564,40 @@ static int eighths(real peak)
     return 255;
 }
 
-/* How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out. */
-static int size_of(const rigid_gear_diagnosis *d, int c)
+/*
+ * How large a fault of class c is at least, as the residuals in alarm are out; -1: ruled out, as it
+ * is not seen by all of the alarms.
+ */
+static int size_of(const rigid_gear_diagnosis *d, int c, int alarms)
 {
+    const uint32_t begin = first_entry[c];
+    const uint32_t end = first_entry[c + 1];
     int size = 0;
-    int k;
+    int seen = 0;
+    uint32_t i;
 
-    for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
+    for (i = begin; i < end; ++i) {
+        const int k = (int)seen_by[i];
+
         if (d->state[k] == RIGID_GEAR_ALARM) {
             const int n = eighths(d->peak[k]);
 
-            if (least_size[c][k] == 0u) {
-                return -1;
+            if (n > 0 && n + (int)least_size[i] > size) {
+                size = n + (int)least_size[i];
             }
-            if (n > 0 && n + (int)least_size[c][k] > size) {
-                size = n + (int)least_size[c][k];
-            }
+            ++seen;
         }
     }
-    return size;
+    return seen == alarms ? size : -1;
 }
 
 /* What is left of the faults of class c. */
-static rigid_gear_candidate left_of(const rigid_gear_diagnosis *d, int c)
+static rigid_gear_candidate left_of(const rigid_gear_diagnosis *d, int c, int alarms)
 {
-    const int size = size_of(d, c);
-    int k;
+    const uint32_t begin = first_entry[c];
+    const uint32_t end = first_entry[c + 1];
+    const int size = size_of(d, c, alarms);
+    uint32_t i;
 
     if (size < 0) {
         return RIGID_GEAR_RULED_OUT;
@@ -587,8 +605,9 @@ static rigid_gear_candidate left_of(const rigid_gear_diagnosis *d, int c)
     if (d->settled < d->window) {
         return RIGID_GEAR_LIKELY; /* too soon for what is quiet to say anything */
     }
-    for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
-        const int sure = (int)sure_size[c][k];
+    for (i = begin; i < end; ++i) {
+        const int k = (int)seen_by[i];
+        const int sure = (int)sure_size[i];
 
         if (d->state[k] == RIGID_GEAR_HEALTHY && sure != 255 && sure <= size) {
             return RIGID_GEAR_SMALL;
@@ -690,11 +709,16 @@ static bool watch(
 static void judge(rigid_gear_diagnosis *d)
 {
     int likely = 0;
+    int alarms = 0;
     int c;
+    int k;
 
+    for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
+        alarms += d->state[k] == RIGID_GEAR_ALARM ? 1 : 0;
+    }
     d->fault_class = RIGID_GEAR_UNKNOWN;
     for (c = 0; c < RIGID_GEAR_CLASSES; ++c) {
-        const rigid_gear_candidate left = left_of(d, c);
+        const rigid_gear_candidate left = left_of(d, c, alarms);
 
         d->candidate[c] = (uint8_t)left;
         if (left == RIGID_GEAR_LIKELY) {

@@ -14,7 +14,7 @@ import pytest
 
 import bondgraph
 from bondgraph import Fault
-from bondgraph.backends.decision import ANY, NO_SIZE, UNSEEN, fault_classes
+from bondgraph.backends.decision import ANY, NO_SIZE, fault_classes
 from bondgraph.backends.write import write
 from bondgraph.ir.residual_limit import ResidualLimit, ShownSize
 from bondgraph.pipeline import Compilation
@@ -62,17 +62,17 @@ _LEVEL = ResidualLimit(0.0, 1.0, 0.0, 0.0, 0.5, 1e30, 0.0)  # of samples alone
 
 
 def test_classes_are_the_rows_of_the_signature_matrix(motor: ModuleType) -> None:
-    tables = zip(motor._LEAST_SIZES, motor._SURE_SIZES, strict=True)
-    rows = [tuple(zip(least, sure, strict=True)) for least, sure in tables]
-    sees = {(UNSEEN, NO_SIZE): False, (1, ANY): True}  # without a tuning of any size
-    found = {c: tuple(map(sees.get, row)) for c, row in zip(motor.CLASSES, rows, strict=True)}
-    assert found == _MOTOR
+    rows = [tuple(k in seen for k in range(2)) for seen in motor._SEEN_BY]
+    assert dict(zip(motor.CLASSES, rows, strict=True)) == _MOTOR
+    for table, code in ((motor._LEAST_SIZES, 1), (motor._SURE_SIZES, ANY)):  # of any size
+        assert [len(own) for own in table] == [len(own) for own in motor._SEEN_BY]
+        assert {size for own in table for size in own} == {code}
 
 
 def test_a_switched_machine_exonerates_nobody() -> None:
     classes = fault_classes(bondgraph.compile("models/oven.bg").program)
     assert classes and all(set(c.sure) == {NO_SIZE} for c in classes)
-    assert all(any(c.least) for c in classes)
+    assert all(c.seen_by and all(c.least) for c in classes)
 
 
 def test_an_alarm_takes_samples_in_a_row_and_ends_with_hysteresis(motor: ModuleType) -> None:

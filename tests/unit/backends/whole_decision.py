@@ -129,10 +129,11 @@ class Decision:
         self.one = likely[0] if named else -1
 
     def _left(self, c: FaultClass, alarms: Sequence[int]) -> int:
-        if any(c.least[k] == 0 for k in alarms):
+        if not set(alarms) <= set(c.seen_by):
             return RULED_OUT
-        size = max((c.least[k] + self.peak[k] for k in alarms if self.peak[k]), default=0)
-        quiet = [c.sure[k] for k, s in enumerate(self.state) if s == HEALTHY]
+        least, sure = (dict(zip(c.seen_by, own, strict=True)) for own in (c.least, c.sure))
+        size = max((least[k] + self.peak[k] for k in alarms if self.peak[k]), default=0)
+        quiet = [sure[k] for k in c.seen_by if self.state[k] == HEALTHY]
         heard = self.settled >= self.window and any(s != 255 and s <= size for s in quiet)
         return SMALL if heard else LIKELY
 
