@@ -205,7 +205,7 @@ class _Elimination:
                 self.holders.setdefault(variable, {})[at] = None
         self.heap = [(len(rows), v.id, v) for v, rows in self.holders.items()]
         heapq.heapify(self.heap)
-        self.late: list[tuple[int, int, Expr]] = []  # what its own equation does not hold yet
+        self.late: list[tuple[int, int, Expr]] = []  # what its own equation does not give yet
         self.pivots: list[_Pivot] = []
 
     def run(self) -> bool:
@@ -217,15 +217,15 @@ class _Elimination:
             holders = self.holders.get(variable)
             if holders is None or len(holders) != count:
                 continue  # an entry of the heap that has been overtaken
-            own = self.own.get(variable)
-            if early and own in self.rows and own not in holders:
-                heapq.heappush(self.late, entry)
-                continue
             sizes = {at: abs(self.rows[at].sizes[variable]) for at in holders}
             least = _THRESHOLD * max(sizes.values(), default=0.0)
-            if not least:
+            fit = [at for at, size in sizes.items() if size >= least > 0.0]
+            own = self.own.get(variable)
+            if early and own in self.rows and own not in fit:
+                heapq.heappush(self.late, entry)
+                continue
+            if not fit:
                 return False
-            fit = [at for at, size in sizes.items() if size >= least]
             self.take(min(fit, key=lambda at: self.rank(at, own)), variable)
         return True
 
