@@ -19,6 +19,7 @@ from bondgraph.cli.options import (
     sample_rate,
 )
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.moment import moment
 from bondgraph.text.numerals import joined, plural
 from bondgraph.text.whole_file import write_whole
 
@@ -266,7 +267,7 @@ def _fits(left: Left, offset: bool) -> list[str]:
     lines = [text]
     for span in left.spans[:3]:
         lines.append(
-            f"  {span.log}: from {span.start:.4g} s to {span.end:.4g} s"
+            f"  {span.log}: from {moment(span.start, '.4g')} to {moment(span.end, '.4g')}"
             f" it is {span.times:.2g} times as large as usual"
         )
     if len(left.spans) > 3:

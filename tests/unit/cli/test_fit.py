@@ -13,6 +13,8 @@ import pytest
 
 import bondgraph as package
 from bondgraph import Log
+from bondgraph.cli.fit import _fits
+from bondgraph.runtime.diagnosis.parameter_fit import Left, Span
 from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.log_file import write_log
 from tests.unit.cli.conftest import Command
@@ -330,3 +332,10 @@ def test_measured_and_predicted_are_drawn(bondgraph: Command, folder: Path) -> N
     for word in ("measured", "predicted", "left", "r1: term of R"):
         assert word in text
     assert text.count("<path") > 6
+
+
+def test_times_of_a_log_with_dates_are_dates() -> None:
+    """2020-03-09T10:24:33Z is 1583749473 s: with four digits both ends read 1.584e+09 s."""
+    span = Span("a.csv", 1583749473.0, 1583749533.0, 3.0)
+    (_, said) = _fits(Left("r1", 40, 1.0, 1.0, 1.0, 0.0, None, (span,), 10.0), offset=False)
+    assert "from 2020-03-09T10:24:33.000Z to 2020-03-09T10:25:33.000Z it is" in said
