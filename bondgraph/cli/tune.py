@@ -19,7 +19,7 @@ from bondgraph.cli.options import (
 )
 from bondgraph.ir.residual_limit import NEVER
 from bondgraph.text.diagnostic import Trouble
-from bondgraph.text.numerals import plural
+from bondgraph.text.numerals import listed, plural
 from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -253,6 +253,7 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
         level = f"a + {x.kappa * x.sigma:.3g}"
         sums = f"{x.height:.1f} sigma" if x.height < NEVER.height else "never: it adds up noise"
         limits.append((name, f"{x.sigma:.3g}", level, sums))
+    stray = {n: x.apart for n, x in best.tuning.limits.items() if x.apart > 0.0}
     rows: list[tuple[str, ...]] = [("fault", "change", "", "after", "in")]
     hidden = []
     for shown in best.shown:
@@ -262,6 +263,12 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
         else:
             rows.append(row)
     lines += [*console.columns(limits), ""]
+    if stray:
+        told = [f"{n} by {far:.3g} ({far / best.tuning.limits[n].sigma:.2g} times the noise)"
+                for n, far in stray.items()]  # fmt: skip
+        lines += [f"The logs stand apart: {listed(told, 'and')}. A watch learns from its first rows"
+                  " where its machine stands; what is wrong from the start by no more than that is"
+                  " not seen", ""]  # fmt: skip
     lines += [f"The smallest change that is sure to show within {best.window:g} s, in nine windows"
               " of ten", *console.columns(rows)]  # fmt: skip
     if hidden:

@@ -23,7 +23,8 @@ from bondgraph.runtime.diagnosis.hypotheses import (
 )
 from bondgraph.runtime.diagnosis.noise import CAREFUL, noise, stepped, uncovered
 from bondgraph.runtime.diagnosis.row_averages import lasting
-from bondgraph.runtime.diagnosis.rows import Row, averaged, steady, weight
+from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
+from bondgraph.runtime.diagnosis.standing import Standing, apart
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.diagnosis.wander import wander
 from bondgraph.runtime.log import Array
@@ -358,6 +359,7 @@ def _limits(
     work: _Work,
 ) -> dict[str, Limit]:
     rows = sum(n.rows for n in logs)
+    logs, far = _beside_their_own(logs, stands)
     tail = np.max([n.tail for n in logs], axis=0) / _TAIL
     crossings = np.sum([n.crossings for n in logs], axis=0) / (rows * engine.sample_time)
     excess = np.max([n.excess for n in logs], axis=0)
@@ -390,8 +392,26 @@ def _limits(
                 unit = max(unit, least * (1.0 + float(mean.weights.sum())))
                 limit = Limit(*limit[:6], unit, off, *mean.weights.tolist())
         held = float(work.held[k]) if work.free[k] else 0.0
-        found[engine.residuals[k]] = limit._replace(held=held)
+        found[engine.residuals[k]] = limit._replace(held=held, apart=float(far[k]))
     return _higher(found, engine.residuals, logs, work.spread)
+
+
+def _beside_their_own(
+    logs: Sequence[_Noise], stands: Sequence[bool]
+) -> tuple[list[_Noise], Array]:
+    """The logs with each residual beside where it stands in each, where logs stand apart in that,
+    and how far they do, by residual."""
+    far, shift = np.zeros(len(stands)), np.zeros((len(logs), len(stands)))
+    for k in [k for k, own in enumerate(stands) if own]:
+        far[k], shift[:, k] = apart([n.rest[:, k] for n in logs])
+    return [
+        n._replace(
+            rest=n.rest - own,
+            averages=n.averages - own,
+            excess=n.excess - np.stack([own, -own]),
+        )
+        for n, own in zip(logs, shift, strict=True)
+    ], far
 
 
 def _higher(
@@ -401,22 +421,39 @@ def _higher(
     own = np.array(limits(found, residuals), dtype=float)
     cusum, sure = Cusum(len(own), healthy=True), np.ones(len(own), dtype=bool)
     for log in logs:
-        history = History(spread)
+        history, standing = History(spread), Standing(own)
         cusum.restart()
         waiting: deque[Row] = deque()
+        mean = own[:, 4].copy()
         for one in log.every:
-            row = one._replace(value=np.where(one.valid, one.value, 0.0), mean=own[:, 4])
-            assert row.average is not None
-            row = row._replace(average=row.average._replace(value=row.average.value.copy()))
-            row.lower(own[:, 4])
-            cusum.add(history.innovation(row, sure), own)
+            row = _where_it_stands(one, mean, standing.unsure)
+            new = history.innovation(row, sure)
+            cusum.add(new, own)
             waiting.append(row)
+            if standing:
+                moved = standing.learn(*beside(new, own))
+                mean += moved
+                for later in waiting:
+                    later.lower(moved)
             if len(waiting) > HEALTHY:
                 old = waiting.popleft()
                 history.add(*steady(old, weight(old, own[:, 0])))
         cusum.end()
     heights = dict(zip(residuals, cusum.heights(own[:, 3]).max(axis=0).tolist(), strict=True))
     return {name: limit._replace(height=heights[name]) for name, limit in found.items()}
+
+
+def _where_it_stands(row: Row, mean: Array, unsure: Array) -> Row:
+    """A row beside a mean, with room for what is not known of that."""
+    own = row.average
+    assert own is not None
+    bound, doubt = own.bound + unsure, own.doubt + unsure
+    own = own._replace(value=own.value.copy(), bound=bound, doubt=doubt)
+    bound, doubt = row.bound + unsure, row.doubt + unsure
+    value = np.where(row.valid, row.value, 0.0)
+    found = row._replace(value=value, mean=mean, bound=bound, doubt=doubt, average=own)
+    found.lower(mean)
+    return found
 
 
 def _mean(column: Array) -> float:

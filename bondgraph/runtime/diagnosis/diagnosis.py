@@ -26,6 +26,7 @@ from bondgraph.runtime.diagnosis.rows import (
     Row,
     all_of,
     averaged,
+    beside,
     steady,
     to_row_ends,
     together,
@@ -34,6 +35,7 @@ from bondgraph.runtime.diagnosis.rows import (
 )
 from bondgraph.runtime.diagnosis.sensor_offsets import SensorOffsets, sensor_offsets
 from bondgraph.runtime.diagnosis.signal_checks import SignalChecks
+from bondgraph.runtime.diagnosis.standing import Standing
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
 from bondgraph.runtime.diagnosis.wander import Levels
@@ -83,6 +85,7 @@ class Diagnosis:
             self._limits = self._learning.limits
         else:
             self._limits = np.array(limits(tuning.limits, engine.residuals), dtype=float)
+        self._standing = Standing(self._limits)
         learns = tuning is None
         self._detection = Detection(engine.residuals, max(3, self._every // 10), learns)
         model.doubles()  # found now: an alarm cannot wait for it
@@ -170,6 +173,7 @@ class Diagnosis:
             valid = valid & sound
             value = np.where(valid, value - self._limits[:, 4], 0.0)
             self._status.warm_up(time[own], valid, self._limits[:, 0], self._origins, out)
+            doubt = doubt + self._standing.unsure
             bound = np.where(valid, bound + slack(self._tolerated, slopes) + doubt, 0.0)
             yield Part(time[own], samples[own], value, valid, bound, doubt, slopes)
 
@@ -265,12 +269,21 @@ class Diagnosis:
         assert self._learning is not None
         before = self._limits[:, 4].copy()
         fresh = self._learning.row(row, healthy, self._detection.held)
-        if (moved := self._limits[:, 4] - before).any():
+        self._stood(self._limits[:, 4] - before)
+        return fresh
+
+    def _stands(self, moved: Array) -> None:
+        """This machine stands elsewhere by so much while all is well."""
+        self._limits[:, 4] += moved
+        self._stood(moved)
+
+    def _stood(self, moved: Array) -> None:
+        """So it did in the rows before."""
+        if moved.any():
             for one in self._past:
                 one.lower(moved)
             mean = self._limits[:, 4].copy()
             self._past = deque((r._replace(mean=mean) for r in self._past), self._past.maxlen)
-        return fresh
 
     def _remember(self, row: Row) -> None:
         """Learn from a row once the ones behind it are as usual too: before an alarm a fault acts.
@@ -280,6 +293,8 @@ class Diagnosis:
         if self._detection.suspects(row, self._limits):
             self._calm.clear()
             return
+        if self._standing:
+            self._stands(self._standing.learn(*self._beside(row)))
         self._calm.append(row)
         self._offsets.row(row, self._history)
         waits = not self._offsets.known or (self._learning is not None and self._learning.first)
@@ -296,13 +311,8 @@ class Diagnosis:
     def _beside(self, row: Row) -> tuple[Array, Mask]:
         """What a row is beside the parameters that healthy rows have told of."""
         sound = ~self._offsets.steep(row, self._history)
-        own = self._history.innovation(row, sound)
-        known = np.isfinite(self._limits[:, 0]) & sound
-        if own.average is None:
-            return own.value, own.valid & known
-        lasting = self._limits[:, 6] > 0.0
-        value = np.where(lasting, own.average.value - self._limits[:, 7], own.value)
-        return value, np.where(lasting, own.average.valid, own.valid) & known
+        value, valid = beside(self._history.innovation(row, sound), self._limits)
+        return value, valid & sound
 
     def _weight(self, row: Row) -> Array:
         return weight(row, self._limits[:, 0])
@@ -445,6 +455,7 @@ class Diagnosis:
         self._origins.resume(other._origins.state(known[self._lasting :]))
         self._checks.resume({**other._checks.state(), "active": []})
         self._levels.resume(other._levels.state())
+        self._standing.resume(other._standing.state())
         if self._learning is not None and other._learning is not None:
             self._learning.resume(other._limits, other._learning.state())
         elif other._learning is None:
@@ -467,6 +478,7 @@ class Diagnosis:
             "unusual": self._checks.state(),
             "driving": self._learning and self._learning.state(),
             "levels": self._levels.state(),
+            "standing": self._standing.state(),
         }
 
     def resume(self, state: dict[str, Any]) -> None:
@@ -486,9 +498,12 @@ class Diagnosis:
         self._origins.resume(state["origins"])
         self._checks.resume(state["unusual"])
         self._levels.resume(state["levels"])
+        self._standing.resume(state["standing"])
         if self._learning is not None:
             self._learning.resume(levels, state["driving"])
             self._limits = levels
+        else:
+            self._limits[:, 4] = levels[:, 4]
 
 
 def odd(history: History, value: Array, slopes: Array, noise: Array) -> Mask:

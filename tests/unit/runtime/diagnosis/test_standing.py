@@ -1,0 +1,125 @@
+"""Healthy logs that stand apart: how far, and what a watch makes of it."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+
+import numpy as np
+import pytest
+
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.calibration import tune
+from bondgraph.runtime.diagnosis.cusum import on_board
+from bondgraph.runtime.diagnosis.standing import FIRST, Standing, apart
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.text.source import Source
+
+
+def _logs(draw: np.random.Generator, count: int, between: float) -> list[Array]:
+    return [draw.normal(between * draw.normal(), 1.0, 80) for _ in range(count)]
+
+
+@pytest.mark.parametrize("count", [3, 5, 12])
+def test_one_more_log_stands_within_the_room_for_it(count: int) -> None:
+    """Drawn with a deviation of 2 between logs: 999 of 1000 should be, whatever their number."""
+    draw, outside = np.random.default_rng(4), 0
+    for _ in range(400):
+        *logs, other = _logs(draw, count + 1, 2.0)
+        found, stands = apart(logs)
+        assert abs(stands.sum()) < 1e-9
+        mean = np.mean([one.mean() for one in logs])
+        outside += found > 0.0 and abs(other.mean() - mean) > UNKNOWN * found
+    assert outside <= 3
+
+
+def test_logs_of_one_mean_do_not_stand_apart() -> None:
+    draw = np.random.default_rng(5)
+    assert sum(apart(_logs(draw, 4, 0.0))[0] > 0.0 for _ in range(200)) <= 8
+    assert apart(_logs(draw, 1, 3.0))[0] == 0.0
+    assert apart([np.full(50, np.nan), np.ones(50)])[0] == 0.0
+
+
+def test_where_a_machine_stands_is_known_after_some_rows_as_their_mean() -> None:
+    """By a prior that is wide beside the noise, the estimate is the mean of the rows."""
+    limits = np.array([Limit(1.0, 1.0, 4.0, 9.0, apart=50.0), Limit(1.0, 1.0, 4.0, 9.0)])
+    standing, at = Standing(limits.astype(float)), np.zeros(2)
+    values = np.random.default_rng(1).normal(7.0, 1.0, 40)
+    for k, value in enumerate(values):
+        assert standing.unsure.tolist() == pytest.approx(
+            [UNKNOWN * 50.0 if k < FIRST else UNKNOWN / np.sqrt(k), 0.0], rel=1e-2
+        )
+        moved = standing.learn(np.full(2, value) - at, np.ones(2, dtype=bool))
+        assert k + 1 >= FIRST or not moved.any()
+        at += moved
+    assert at.tolist() == pytest.approx([values.mean(), 0.0], abs=0.02)
+    other = Standing(limits.astype(float))
+    other.resume(json.loads(json.dumps(standing.state())))
+    assert other.state() == standing.state()
+
+
+def test_code_that_learns_nothing_has_room_for_all_places() -> None:
+    plain, stray = Limit(1.0, 1.0, 4.0, 9.0), Limit(1.0, 1.0, 4.0, 9.0, apart=3.0)
+    assert on_board(stray, 0.5) == on_board(plain, 0.5)._replace(bound=0.5 + UNKNOWN * 3.0)
+
+
+_TANK = """bg 1
+model Tank {
+    input q : m^3/s
+    param C = 20
+    param R = 2
+    0:liquid { <- Sf:q; -> C:C; -> R:R; -> De:p }
+}
+"""
+
+
+@cache
+def _tank() -> Compilation:
+    return Compilation(Source("tank.bg", _TANK)).with_options(rate=1.0, bandwidth=0.2)
+
+
+def _run(seed: int, leak: float = 0.0, rows: int = 1500) -> Array:
+    """A tank whose gauge is off by another 0.1 Pa each run, ten times its noise; a `leak` of
+    m^3/s from 900 s on."""
+    draw, level, found = np.random.default_rng(seed), 2.0, []
+    off = 0.1 * draw.normal()
+    for k in range(rows):
+        found.append((1.0 + 0.2 * np.sin(0.02 * k), level))
+        rest = 2.0 * (found[-1][0] - (leak if k >= 900 else 0.0))
+        level = rest + (level - rest) * np.exp(-1.0 / 40.0)
+    return np.array(found) + [0.0, off] + draw.normal(size=(rows, 2)) * [0.001, 0.01]
+
+
+@cache
+def _tuning() -> Tuning:
+    engine = _tank().engine(native=False)
+    logs = [_run(100 + k) for k in range(5)]
+    tuned = tune(engine, _tank().diagnosis_model, logs, _tank().program.digest, 1.0)
+    return tuned.tuning
+
+
+def _watched(samples: Array) -> list[Verdict]:
+    engine, said = _tank().engine(native=False), []
+    watch = _tank().diagnosis(engine, _tuning())
+    for k in range(0, len(samples), 100):
+        part = samples[k : k + 100]
+        said += watch.update(np.arange(k, k + len(part)) * 1.0, engine.run(part), part)
+    return said
+
+
+def test_a_run_that_stands_elsewhere_is_well() -> None:
+    """By up to 2 deviations of the places that the logs of the tuning stood at."""
+    (limit,) = _tuning().limits.values()
+    assert limit.apart > 3.0 * limit.sigma
+    for seed in range(10):
+        assert not [v for v in _watched(_run(seed)) if v.event == "fault"], seed
+
+
+def test_what_goes_wrong_later_is_seen_beside_where_it_stands() -> None:
+    """Where the logs were taken for noise about one mean, none of these four was."""
+    for seed in range(4):
+        said = _watched(_run(seed, leak=0.03))
+        first = next(v.time for v in said if v.event == "fault")
+        assert 900.0 < first < 1000.0, seed
