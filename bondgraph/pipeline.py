@@ -282,7 +282,7 @@ class Compilation:
         >>> import bondgraph, numpy
         >>> c = bondgraph.compile(text="bg 1\\nmodel M { param R = 2 Ohm; Se:U -> 1:i; i -> R:R;"
         ...                            " i -> Df:y }")
-        >>> t, draw = numpy.arange(5000) / 1000, numpy.random.default_rng(1)
+        >>> t, draw = numpy.arange(5000) / 1000, numpy.random.default_rng(2)
         >>> columns = {"U": numpy.sin(9 * t), "y": numpy.sin(9 * t) / 3}
         >>> columns["y"] = columns["y"] + 0.01 * draw.standard_normal(5000)
         >>> found = c.fit({"run": bondgraph.Log(t, columns, {}, {})})
