@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, Left
 
-_LATE = 3.0  # standard errors above which it is told that a signal comes late
+_LATE = 3.0  # standard errors above which it is told that a signal comes early or late
 _SUSPECTS = 3  # offsets that are told at most
 _MEMORY = 0.3  # correlation of what is left, above which it is no noise of sensors
 
@@ -230,7 +230,8 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
     lines += _suspected(found)
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:
-            lines.append(f"  {delay.signal} comes {1000 * delay.value:.3g} ms late in the log")
+            when = f"{1000 * abs(delay.value):.3g} ms {'early' if delay.value > 0.0 else 'late'}"
+            lines.append(f"  {delay.signal} comes {when} in the log")
     return [*lines, "", f"Written to {joined(files, 'and')}"]
 
 

@@ -218,6 +218,7 @@ class Records:
         if self.values.constant(reads):
             fail(self.report, "constant-sensor", f"Sensor `{entry.local}` reads no signal.",
                  declaration.value.origin, help="A sensor reads signals of nodes, as in `rotor.f`."
+                 " A level that is always there is a source, as in `Se:level = 2 -> 0:n -> De:y`."
                  )  # fmt: skip
         counts: Expr | None = None
         if declaration.counts is not None:

@@ -133,10 +133,11 @@ class Left(NamedTuple):
 
 
 class Delay(NamedTuple):
-    """How late a signal that jumps is in the log, in s, with its standard error.
+    """By how much a signal that jumps is in the log before it acts, in s, with its standard error.
 
-    A step between two samples is in the log of the command at once and in that of a sensor a
-    sample later: without this, parameters would have to make up for it.
+    Below zero it is there too late. A step at a sample is half a sample early where straight lines
+    join samples, one that a sensor reads at the next sample is late: without this, parameters would
+    have to make up for it.
     """
 
     signal: str

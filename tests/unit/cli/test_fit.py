@@ -91,6 +91,25 @@ def test_what_a_wrong_law_tells_has_no_interval_either(bondgraph: Command, folde
     assert not tomllib.loads(text)["standard_errors"]
 
 
+def test_a_signal_that_is_in_the_log_too_soon_comes_early(
+    bondgraph: Command, folder: Path
+) -> None:
+    """U jumps every 0.4 s and is in the log half a sample before the current does."""
+    t = np.arange(6000) / 1000.0
+    drive = np.where(np.floor(t / 0.4) % 2 == 0, 1.0, -1.0) * (1.0 + 0.2 * np.floor(t))
+    soon = 0.5 * (drive + np.append(drive[1:], drive[-1]))
+    noise = np.random.default_rng(3).normal(0.0, 0.001, len(t))
+    text = "bg 1\nmodel M { param R = 2 Ohm; Se:U -> 1:i -> R:R; i -> Df:y }"
+    (folder / "r.bg").write_text(text)
+    write_log(Log(t, {"U": soon, "y": drive / 3.0 + noise}, {}, {}), "log.csv")
+    done = bondgraph("fit", "r.bg", "log.csv", "-o", "p.toml")
+    assert done.status == 0, done.err
+    told = re.findall(r"^  (\S) comes (\S+) ms early in the log$", done.out, re.MULTILINE)
+    # straight lines make both half a sample early
+    assert [name for name, _ in told] == ["U", "y"]
+    assert [float(time) for _, time in told] == pytest.approx([1.0, 0.5], abs=0.02)
+
+
 def test_what_is_not_told_has_no_interval(bondgraph: Command, folder: Path) -> None:
     text = MODEL.replace("param L", "param S = 1 Ohm; param L")
     text = text.replace("i -> R:R", "i -> R:R; i -> R:S")
