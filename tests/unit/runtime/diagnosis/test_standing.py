@@ -8,14 +8,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.cusum import on_board
 from bondgraph.runtime.diagnosis.standing import FIRST, Standing, apart
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
-from bondgraph.text.source import Source
+from tests.unit.runtime.diagnosis.tank import tank
 
 
 def _logs(draw: np.random.Generator, count: int, between: float) -> list[Array]:
@@ -65,21 +64,6 @@ def test_code_that_learns_nothing_has_room_for_all_places() -> None:
     assert on_board(stray, 0.5) == on_board(plain, 0.5)._replace(bound=0.5 + UNKNOWN * 3.0)
 
 
-_TANK = """bg 1
-model Tank {
-    input q : m^3/s
-    param C = 20
-    param R = 2
-    0:liquid { <- Sf:q; -> C:C; -> R:R; -> De:p }
-}
-"""
-
-
-@cache
-def _tank() -> Compilation:
-    return Compilation(Source("tank.bg", _TANK)).with_options(rate=1.0, bandwidth=0.2)
-
-
 def _run(seed: int, leak: float = 0.0, rows: int = 1500) -> Array:
     """A tank whose gauge is off by another 0.1 Pa each run, ten times its noise; a `leak` of
     m^3/s from 900 s on."""
@@ -94,15 +78,15 @@ def _run(seed: int, leak: float = 0.0, rows: int = 1500) -> Array:
 
 @cache
 def _tuning() -> Tuning:
-    engine = _tank().engine(native=False)
+    engine = tank().engine(native=False)
     logs = [_run(100 + k) for k in range(5)]
-    tuned = tune(engine, _tank().diagnosis_model, logs, _tank().program.digest, 1.0)
+    tuned = tune(engine, tank().diagnosis_model, logs, tank().program.digest, 1.0)
     return tuned.tuning
 
 
 def _watched(samples: Array) -> list[Verdict]:
-    engine, said = _tank().engine(native=False), []
-    watch = _tank().diagnosis(engine, _tuning())
+    engine, said = tank().engine(native=False), []
+    watch = tank().diagnosis(engine, _tuning())
     for k in range(0, len(samples), 100):
         part = samples[k : k + 100]
         said += watch.update(np.arange(k, k + len(part)) * 1.0, engine.run(part), part)

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.wander import NONE, Levels, Wander, wander
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
-from bondgraph.text.source import Source
+from tests.unit.runtime.diagnosis.tank import tank
 
 _MODELS = Path(__file__).parents[4] / "models"
 
@@ -107,21 +105,6 @@ def test_found_once_more_a_level_stands_where_rows_have_told() -> None:
     assert levels.state()[5] == [7.0]  # as little as is known of so many rows
 
 
-_TANK = """bg 1
-model Tank {
-    input q : m^3/s
-    param C = 20
-    param R = 2
-    0:liquid { <- Sf:q; -> C:C; -> R:R; -> De:p }
-}
-"""
-
-
-@cache
-def _tank() -> Compilation:
-    return Compilation(Source("tank.bg", _TANK)).with_options(rate=1.0, bandwidth=0.2)
-
-
 def _verdicts(
     seed: int, drift: float, leak: float = 0.0, block: int = 100
 ) -> list[Verdict]:
@@ -135,8 +118,8 @@ def _verdicts(
         rest = 2.0 * (1.0 - lost)
         level = rest + (level - rest) * np.exp(-1.0 / 40.0)
     samples = np.array(rows) + draw.normal(size=(1200, 2)) * [0.02, 0.002]
-    engine = _tank().engine(native=False)
-    watch, said = _tank().diagnosis(engine), []
+    engine = tank().engine(native=False)
+    watch, said = tank().diagnosis(engine), []
     for k in range(0, 1200, block):
         part = samples[k : k + block]
         said += watch.update(np.arange(k, k + len(part)) * 1.0, engine.run(part), part)
