@@ -36,6 +36,7 @@ def test_strokes_appear_while_one_types(page: Workbench) -> None:
     page.until("document.querySelector('#drawing .badge')")
     page.until("document.querySelector('#problems').dataset.worst === 'error'")
     page.type("loop { -> R:R; -> I:L; -> Df:i")
+    page.until("document.querySelector('#drawing [data-node=i]')")  # the last that is typed
     page.until("document.querySelectorAll('#drawing [data-bond] .stroke').length === 3")
     assert sorted(page.drawn()) == ["L", "R", "U", "i", "loop"]
     # Each stroke tells its reason: the inductor gives the current, so the resistor gets it.
