@@ -9,11 +9,11 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.noise import COVERED
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 
 HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
 _KEPT = 1.0 - 1.0 / 1000.0  # of what is known, with each further row
-UNKNOWN = 2.0  # deviations of what is not known of healthy parameters
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 

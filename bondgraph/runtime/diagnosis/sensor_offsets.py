@@ -15,9 +15,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
-from bondgraph.runtime.diagnosis.history import HEALTHY, UNKNOWN, History
+from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
 from bondgraph.runtime.diagnosis.rows import Part, Row
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 
 _ROWS = 10  # that tell the noise of a sensor: their median, as some may be rough

@@ -21,7 +21,7 @@ _LEAST = {"sigma": 1 / _MOST, "crossings": 0.0, "kappa": 0.0, "height": 0.0, "me
           "before3": 0.0, "before4": 0.0, "walk": 0.0,
           "held": 0.0, "apart": 0.0}  # fmt: skip
 _SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filter may be, rad
-UNKNOWN = 2.0  #: deviations of what is not known of where a machine stands
+UNKNOWN = 2.0  #: deviations of what is not known yet of a healthy machine, for which there is room
 FASTEST = 0.4  #: of the rate, rad: no filter has fewer samples to work with
 _ENOUGH = 75  # rows, of three time constants, that a log should have
 

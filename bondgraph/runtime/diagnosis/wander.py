@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.text.tuples import NamedTuple
@@ -22,7 +23,6 @@ _MEMORIES = (-0.3, 0.0, 0.3, 0.6, 0.8)  # correlations of noise from row to row 
 _SHARES = tuple(10.0 ** (-0.5 * k) for k in range(11))  # of a step's variance, to that of noise
 _STILL = 0.5  # probability before any row that it does not wander: the least share
 _ENOUGH = 6  # rows, before which nothing tells noise and steps apart
-_UNKNOWN = 2.0  # deviations of what is not known of a level
 
 
 class Wander(NamedTuple):
@@ -169,7 +169,7 @@ class Levels:
             return row
         own, noise = row.average, self._noise**2 / self._rows
         unknown = np.sqrt(np.maximum(self._variance - noise, 0.0))
-        more = _UNKNOWN * unknown
+        more = UNKNOWN * unknown
         if own is not None:
             own = own._replace(value=own.value - self._level, bound=own.bound + more)
         return row._replace(value=row.value - self._level, bound=row.bound + more, average=own)
