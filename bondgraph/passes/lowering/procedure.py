@@ -108,7 +108,7 @@ class Procedure:
 
     def _write(self, roots: list[Expr]) -> None:
         """Make the values of the roots, after the statements that they need in any case."""
-        uses, written, _ = self._uses(roots)
+        uses, written, operands = self._uses(roots)
         needed = self._needed(roots)
         for node in sorted(uses, key=lambda n: n.id):
             if node in self._made or node not in needed:
@@ -116,7 +116,8 @@ class Procedure:
             value = self._leaf(node)
             if value is None:
                 value = self._value(node, written.get(node))
-                depth = 1 + max((self._depth.get(a, 0) for a in node.args), default=0)
+                # a product that a sum writes out has no depth of its own, what it holds has one
+                depth = 1 + max((self._depth.get(a, 0) for a in operands[node]), default=0)
                 if uses[node] > 1 or depth > _DEEPEST:
                     if not isinstance(value, Ref | Const):
                         value = self._named(node, value)
