@@ -223,7 +223,8 @@ class Operators:
                 right = self._times(own, pivot.entries.get(t, []))
                 entries[t] = self._minus(left, right)
         rest = self.pool.sub(self._apply(other, row.rest), self._apply(own, pivot.rest))
-        return LinearRow((*pivot.rows, *row.rows), _trim(entries), rest)
+        before = [r for r in pivot.rows if r not in row.rows]
+        return LinearRow((*before, *row.rows), _trim(entries), rest)
 
     def _reduced(self, a: Polynomial, b: Polynomial) -> tuple[Polynomial, Polynomial]:
         """Both polynomials without a common factor in D."""

@@ -7,10 +7,8 @@ from pathlib import Path
 
 import pytest
 
-import bondgraph
-from bondgraph.runtime.log import Log
 from tests.unit.runtime.monitoring.broker import Broker
-from tests.unit.runtime.monitoring.watch import ROOT, Nursery, Watch
+from tests.unit.runtime.monitoring.watch import Nursery, Watch
 
 
 @pytest.fixture(scope="session")
@@ -47,11 +45,3 @@ def broker(tmp_path: Path) -> Iterator[Callable[..., Broker]]:
     yield start
     for one in started:
         one.kill()
-
-
-@pytest.fixture(scope="session")
-def robot() -> Log:
-    """The robot with two encoders a drive, on its errands."""
-    compilation = bondgraph.compile(ROOT / "models" / "khepera_encoders.bg")
-    scenario = compilation.scenario(ROOT / "models" / "scenarios" / "errands.toml")
-    return compilation.simulate(scenario._replace(duration=6.0)).log
