@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import isnan
 
 import pytest
 import sympy
@@ -80,6 +81,62 @@ def test_functions_mean_what_they_mean(value: float) -> None:
     for expr, expected in cases.items():
         found = read(parsable(pool, expr, names)).subs(sympy.Symbol("x"), sympy.Rational(value))
         assert float(found) == pytest.approx(expected)
+
+
+def at(pool: Pool, expr: Expr, **values: Fraction) -> float:
+    """What SymPy makes of the text of an expression, at numbers."""
+    found = read(parsable(pool, expr, Names(list(values))))
+    return float(found.subs({sympy.Symbol(n): sympy.Rational(v) for n, v in values.items()}))
+
+
+@pytest.mark.parametrize(
+    ("x", "value"),
+    [(-3, 2), (-1, 2), (0, 3), (Fraction(1, 2), Fraction(7, 2)), (1, 4), (2, -2), (3, -8), (4, -8)],
+)
+def test_a_table_is_straight_between_its_points_and_stays_at_its_ends(
+    x: Fraction, value: Fraction
+) -> None:
+    pool = Pool()
+    pool.tables["t"] = tuple((Fraction(a), Fraction(b)) for a, b in ((-1, 2), (1, 4), (3, -8)))
+    table = pool.fn("table:t", pool.symbol("x", Kind.SENSOR))
+    assert at(pool, table, x=Fraction(x)) == float(value)
+
+
+#: z at x = 1, 3 and y = 10, 20: by hand z(2, 15) = (5 + 7 + 9 + 15)/4 = 9.
+_MAP = ((0, 10, 20), (1, 5, 7), (3, 9, 15))
+_FALLS = ((0, 10, 20), (1, 9, 15), (3, 5, 7))
+
+
+def _map(name: str, rows: tuple[tuple[int, ...], ...]) -> tuple[Pool, Expr, Expr]:
+    pool = Pool()
+    pool.tables[name] = tuple(tuple(map(Fraction, row)) for row in rows)  # type: ignore[assignment]
+    return pool, pool.symbol("x", Kind.SENSOR), pool.symbol("y", Kind.SENSOR)
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "value"),
+    [(2, 15, 9), (1, 10, 5), (3, 20, 15), (1, 12, Fraction(27, 5)), (2, 10, 7), (0, 15, 6),
+     (9, 15, 12), (2, 0, 7), (2, 90, 11)],
+)  # fmt: skip
+def test_a_map_is_bilinear(x: int, y: int, value: Fraction) -> None:
+    pool, first, second = _map("m", _MAP)
+    found = at(pool, pool.fn("table:m", first, second), x=Fraction(x), y=Fraction(y))
+    assert found == float(value)
+
+
+@pytest.mark.parametrize("rows", [_MAP, _FALLS])
+@pytest.mark.parametrize("y", [10, 15])
+def test_a_map_that_is_read_backwards_gives_back_its_first_input(
+    y: int, rows: tuple[tuple[int, ...], ...]
+) -> None:
+    """Between the ends; at them, where the map stays what it is, no input can be told."""
+    pool, value, second = _map("m'", rows)
+    backwards = pool.fn("table:m'", value, second)
+    (_, low, high) = (row[1] + (row[2] - row[1]) * Fraction(y - 10, 10) for row in rows)
+    z = low + (high - low) / 4
+    assert at(pool, backwards, x=z, y=Fraction(y)) == 1.5
+    for z in (low, high):
+        assert isnan(at(pool, backwards, x=Fraction(z), y=Fraction(y)))
 
 
 def test_a_long_chain_is_linear_and_can_be_parsed() -> None:

@@ -336,7 +336,7 @@ def _error(steps: int, expr: Callable[[Bench, Expr], Expr], y: Callable[[float],
     for n in range(steps + 1):
         t = n / steps
         found = run.step({"u": t**4, "y": y(t)}).residuals["r1"]
-    return abs(found)
+    return abs(float(found))
 
 
 @pytest.mark.parametrize("depth", [1, 2, 3])

@@ -15,7 +15,7 @@ import pytest
 
 from bondgraph.compile_options import Options
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.log import Array, Log, LogError
+from bondgraph.runtime.log import TIME, TIME_UNIT, Array, Log, LogError
 from bondgraph.runtime.monitoring import sample_pipeline
 from bondgraph.runtime.monitoring.clock import clock_of
 from bondgraph.runtime.monitoring.engine import Batch, Engine
@@ -37,7 +37,7 @@ def _compiled() -> Engine:
 
 
 def rows(first: int, count: int, columns: Sequence[str] = ("q", "p")) -> Log:
-    time = (first + np.arange(count)) * STEP
+    time: Array = np.asarray(np.arange(first, first + count) * STEP, dtype=np.float64)
     return Log(time, {n: np.ones(count) for n in columns}, {}, {})
 
 
@@ -129,8 +129,9 @@ class Bench(Source):
         return [w for name, w in self.told if name == what]
 
     def watched(self, stop: Stop | None = None, journal: bool = True, **more: Any) -> Monitor:
+        self.clock = clock_of(self.engine)
         parts = Parts(
-            self, self.columns, clock_of(self.engine), self.engine, self, [self.hear],
+            self, self.columns, self.clock, self.engine, self, [self.hear],
             journal=Book(self) if journal else None, **more,  # type: ignore[arg-type]
         )  # fmt: skip
         with pytest.MonkeyPatch.context() as patch:
@@ -200,7 +201,7 @@ def test_what_is_said_has_been_put_down_before_and_is_numbered() -> None:
     bench.script = {2: [fault(0.7), Verdict("update", 0.9 + 1e-12)]}
     bench.watched()
     assert bench.events() == ["start", "fault", "update", "stop"]
-    assert [n for n, _ in bench.said] == [1, 2, 3, 4]
+    assert [n for n, _ in bench.said] == [1, 2, 3, 4] and bench.said[0][1].time == 0.0
     assert bench.said[2][1].time == 0.9  # to nine digits
     written: set[int] = set()
     for what, how in bench.told:
@@ -222,7 +223,7 @@ def test_every_sample_is_counted_once_and_comes_to_the_decision_in_order() -> No
         place += count
     assert place == 75
     last = bench.said[-1][1]
-    assert last.message.startswith("the samples end, after 75 samples")
+    assert last.message.startswith("the samples end, after 75 samples; blind or warming up: r1")
     assert last.account is not None and last.account["samples"]["read"] == 75
     assert last.account["verdicts"] == {"start": 1, "stop": 1} == dict(monitor.account.verdicts)
     assert last.time == pytest.approx(0.74)
@@ -242,6 +243,39 @@ def test_an_observer_and_a_heartbeat_are_told_how_it_stands() -> None:
     assert len(present) == 1 + 3 + 1 and '"ended"' in present[-1] and '"watching"' in present[0]
     assert bench.of("checked") == [None] and bench.of("published") == [1, 2]
     assert max(bench.of("sent")) == 2  # of the last line too, once the publisher is closed
+
+
+def test_a_broker_alone_is_told_of_the_beginning_and_of_the_end() -> None:
+    bench = Bench([Chunk(rows(0, 20))])
+    bench.watched(publisher=Paper(bench))
+    first, last = bench.of("present")
+    assert '"watching"' in first and "none has come yet" in first
+    assert '"ended"' in last and "after 20 samples" in last
+
+
+def test_while_the_machine_is_off_all_residuals_are_blind() -> None:
+    """An alarm alone stays one, as nobody has seen that it has passed."""
+    for script, state in ({}, "blind"), ({1: [fault(0.3)]}, "alarm"):
+        bench, seen = Bench([Chunk(rows(0, 60)), Chunk(rows(60, 60))]), list[Snapshot]()
+        bench.script = script
+        bench.watched(
+            observe=seen.append, operating=lambda log: np.full(log.rows, log.time[0] < 0.5)
+        )
+        assert seen[1].residuals["r1"][1] != "the machine is off"
+        assert seen[-1].residuals["r1"] == (state, "the machine is off")
+
+
+@pytest.mark.parametrize(("unit", "second"), [("us", 1e6), ("ms", 1e3)])
+def test_a_clock_that_counts_in_32_bits_is_known_to_begin_anew(unit: str, second: float) -> None:
+    noted: list[str] = []
+    log = rows(0, 20)._replace(meta={TIME_UNIT: unit, TIME: "t_dev"})
+    bench = Bench([Chunk(log), Chunk(log)])
+    bench.watched(note=noted.append, journal=False)
+    assert bench.clock.wraps == 2**32 / second
+    assert noted == ["bench: time is t_dev"]  # once
+    bench = Bench([Chunk(rows(0, 20))])
+    bench.watched()
+    assert bench.clock.wraps is None
 
 
 def test_a_position_is_put_down_each_second_while_samples_come() -> None:
@@ -327,7 +361,8 @@ def test_lines_that_were_dropped_are_counted_by_what_is_new_of_them() -> None:
             yield Chunk(rows(20 * k, 20))
 
     bench.given = dropping()  # type: ignore[assignment]
-    assert bench.watched().account.lines["overflow"] == 5
+    lines = bench.watched().account.lines
+    assert lines["overflow"] == 5 and lines["garbage"] == 0
 
 
 def test_after_a_gap_engine_and_decision_begin_anew() -> None:
@@ -388,6 +423,9 @@ def test_a_source_that_cannot_go_back_says_what_was_missed() -> None:
     bench = Bench([Chunk(rows(100, 20))], _past(Bench))
     bench.watched()
     assert "at most 0.410 s of the stream are missed (40 samples)" in bench.said[0][1].message
+    bench = Bench([Chunk(rows(60, 20))], _past(Bench))
+    bench.watched()
+    assert "at most 0.010 s of the stream are missed (0 samples)" in bench.said[0][1].message
     bench = Bench([Chunk(rows(10, 20))], _past(Bench))
     bench.watched()
     assert "begins anew at 0.100 s, what was missed is unknown" in bench.said[0][1].message
