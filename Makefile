@@ -116,7 +116,7 @@ robots: $(VENV)/dev.stamp ## a hundred healthy robots and many faulty ones throu
 	$(BIN)/python -m tests.robots.run --jobs 2 $(if $(START),--start $(START))
 
 mutants: $(VENV)/dev.stamp ## 300 mutants of the compiler (or COUNT=...) through the tests that reach them, or (OWN=1) those of the room; hours
-	$(BIN)/python -m tests.mutants --count $(or $(COUNT),300) --jobs 2 $(if $(SEED),--seed $(SEED)) $(if $(OWN),--own)
+	$(BIN)/python -m tests.mutants --count $(or $(COUNT),300) --jobs 2 $(if $(SEED),--seed $(SEED)) $(if $(OWN),--own) $(if $(ONLY),--only $(ONLY))
 
 faults: $(VENV)/dev.stamp ## every writer, killed or failed at every operation on its files, then damage; half an hour
 	$(BIN)/python -m tests.file_faults

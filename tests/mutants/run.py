@@ -54,12 +54,20 @@ class Answer(NamedTuple):
     known: int = 0
 
 
-def drawn(count: int, seed: int, groups: list[str]) -> list[tuple[str, Mutant]]:
-    """As many mutants of each group, by chance; those of other code change nothing in the draw."""
+def drawn(
+    count: int, seed: int, groups: list[str], only: str | None = None
+) -> list[tuple[str, Mutant]]:
+    """As many mutants of each group, by chance; those of other code change nothing in the draw.
+
+    Where `only` one module is asked about, all are of that.
+    """
+    if only is not None:
+        groups = [group for group in groups if only in modules(group)]
     found = []
     for i, group in enumerate(groups):
         share = count // len(groups) + (i < count % len(groups))
-        every = [m for name in modules(group) for m in mutants(name, (ROOT / name).read_bytes())]
+        names = modules(group) if only is None else [only]
+        every = [m for name in names for m in mutants(name, (ROOT / name).read_bytes())]
         every.sort(key=lambda m: m.rank(seed))
         found += [(group, m) for m in every[:share]]
     return found
@@ -240,12 +248,15 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--groups", default=",".join(GROUPS), help="of: %(default)s")
+    parser.add_argument("--only", metavar="PATH", help="mutants of this module and of no other")
     parser.add_argument("--budget", type=float, default=60.0, help="seconds of tests a round")
     parser.add_argument("--least", type=float, default=0.0, help="share to be killed by own tests")
     parser.add_argument("--own", action="store_true", help="ask the tests of such rooms only")
     parser.add_argument("--again", action="store_true", help="only those that survived last time")
     options = parser.parse_args()
-    wanted = drawn(options.count, options.seed, options.groups.split(","))
+    wanted = drawn(options.count, options.seed, options.groups.split(","), options.only)
+    if not wanted:
+        parser.error(f"no mutants of {options.only or options.groups}")
     last = _KEPT / "survived.json"
     if options.again:
         before = {tuple(key) for key in json.loads(last.read_text(encoding="utf-8"))}

@@ -87,6 +87,15 @@ def test_a_longer_draw_has_the_shorter_one_in_it() -> None:
     assert few != drawn(4, 2, ["causality", "oracle"])
 
 
+def test_one_module_may_be_asked_about_alone() -> None:
+    name = "bondgraph/passes/lowering/stages.py"
+    found = drawn(10**6, 1, list(GROUPS), name)
+    assert {m for _, m in found} == set(mutants(name, (ROOT / name).read_bytes()))
+    assert {group for group, _ in found} == {"lowering"}
+    assert drawn(5, 1, list(GROUPS), name) == found[:5]
+    assert drawn(5, 1, ["oracle"], name) == []
+
+
 def test_tests_that_reach_the_function_are_asked_those_of_its_name_and_room_first() -> None:
     (mutant,) = mutants("bondgraph/passes/elimination/chaining.py", b"def f(): x = a < b")
     here = frozenset({"bondgraph/passes/elimination/chaining.py:f"})
