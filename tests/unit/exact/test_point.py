@@ -8,9 +8,13 @@ from random import Random
 
 import pytest
 
-from bondgraph.exact.point import _inverted, _undone
+from bondgraph.exact.forms import ORDERS
+from bondgraph.exact.plant_equations import Equation, Setting
+from bondgraph.exact.point import STRIDE, Point, _inverted, _undone
 from bondgraph.field.balls import Reals
-from bondgraph.field.numbers import INVERSES, Undefined
+from bondgraph.field.numbers import INVERSES, Number, Undefined
+from bondgraph.field.prime import PrimeField
+from bondgraph.field.sparse import CONSTANT, Contradiction, Row
 from bondgraph.ir.expr import Expr, Kind, Pool
 
 _VALUES = [Fraction(-5, 3), Fraction(-2, 5), Fraction(1, 3), Fraction(7, 4)]
@@ -74,3 +78,115 @@ def test_an_argument_by_hand(node: Expr, value: int, wanted: float | None) -> No
     assert (found is None) == (wanted is None)
     if wanted is not None:
         assert float(found) == pytest.approx(wanted, abs=1e-12)
+
+
+# ------------------------------------------------------------------ what linear rows determine
+
+
+_FIELD = PrimeField(3)
+_COLUMNS = [0, 1, STRIDE, STRIDE + 1, 2 * STRIDE, 3 * STRIDE]
+
+
+def _point(seed: int = 1) -> Point:
+    return Point({}, Setting({}, _FIELD, 1), Random(seed))
+
+
+def _row(constant: int, *entries: int) -> Row:
+    """constant + entries * columns."""
+    found = {c: _FIELD.number(x) for c, x in zip(_COLUMNS, entries, strict=False) if x}
+    return found | ({CONSTANT: _FIELD.number(constant)} if constant else {})
+
+
+def _at(row: Row, values: dict[int, Number]) -> Number:
+    return sum((x * values[c] for c, x in row.items() if c != CONSTANT), row.get(CONSTANT, 0))
+
+
+def _drawn(seed: int) -> tuple[Point, list[Row], dict[int, Number]]:
+    """A point with rows that all hold at some values, the last of them a sum of the others."""
+    random = Random(seed)
+    values = {c: _FIELD.any(random) for c in _COLUMNS}
+    point, rows = _point(seed), list[Row]()
+    for _ in range(3):
+        row = _row(0, *(random.randint(-2, 2) for _ in _COLUMNS))
+        rows.append(row | {CONSTANT: _FIELD.number(0) - _at(row, values)})
+    both = {c: rows[0].get(c, 0) + 5 * rows[1].get(c, 0) for c in {*rows[0], *rows[1]}}
+    rows.append({c: x for c, x in both.items() if x})
+    for row in rows:
+        point.add(dict(row))
+    return point, rows, values
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_row_is_reduced_to_what_is_open_of_it_and_keeps_its_value(seed: int) -> None:
+    point, rows, values = _drawn(seed)
+    assert len(point.pivots) == len(point.rank) == 3
+    assert all(point.reduce(dict(row)) == {} for row in rows)
+    random = Random(seed + 100)
+    for _ in range(5):
+        other = _row(4, *(random.randint(-3, 3) for _ in _COLUMNS))
+        reduced = point.reduce(other)
+        assert not set(reduced) & set(point.rank)
+        assert _at(reduced, values) == _at(other, values)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_whole_point_satisfies_every_row_whatever_is_open(seed: int) -> None:
+    point, rows, _ = _drawn(seed)
+    found = point.complete(_COLUMNS)
+    assert set(found) == set(_COLUMNS)
+    assert not any(_at(row, found) for row in rows)
+    point.random = Random(seed + 50)
+    assert point.complete(_COLUMNS) != found
+
+
+def test_what_is_fixed_stays_and_what_is_determined_is_not_asked_for() -> None:
+    """x - y = 1, and y is 4 by choice: x is 5, whatever it is told to be."""
+    point = _point()
+    point.add(_row(-1, 1, -1))
+    x, y = _row(0, 1), _row(0, 0, 1)
+    assert point.fix(dict(y), _FIELD.number(4)) == 4
+    assert point.fix(dict(x), _FIELD.number(9)) == 5 and point.fix(dict(y)) == 4
+    other = _row(0, 0, 0, 1)
+    drawn = point.fix(dict(other))
+    assert point.fix(dict(other)) == drawn and drawn not in (0, 4, 5)
+    assert point.fix(_row(7)) == 7
+    assert point.fix({}) == 0
+
+
+def test_a_row_that_cannot_hold_is_told_by_its_number() -> None:
+    point = _point()
+    point.add(_row(-1, 1, -1))
+    point.add(_row(-2, 2, -2), 5)  # the same again
+    with pytest.raises(Contradiction) as told:
+        point.add(_row(-3, 2, -2), 6)
+    assert told.value.row == 6
+
+
+def test_equations_hold_with_their_derivatives_and_are_told_by_their_numbers() -> None:
+    """x' = y and x = 3 t: y is 3; with y = 4 the last equation is the one that does not hold."""
+    minus = _FIELD.number(-1)
+    one = [_FIELD.number(1)]
+    line = [_FIELD.number(0), _FIELD.number(-3)]
+    equations = [
+        Equation(-1, {1: one, ORDERS: [minus]}, None),
+        Equation(-1, {0: one, CONSTANT: line}, None),
+    ]
+    point = _point()
+    point.linear(equations, [0, 1])
+    assert point.fix({STRIDE: _FIELD.number(1)}, _FIELD.number(8)) == 3
+    assert point.fix({1: _FIELD.number(1)}) == 3 and point.fix({0: _FIELD.number(1)}) == 0
+    wrong = Equation(-1, {ORDERS: one, CONSTANT: [_FIELD.number(-4)]}, None)
+    with pytest.raises(Contradiction) as told:
+        _point().linear([*equations, wrong], [0, 1, 0])
+    assert told.value.row in (0, 1, 2)  # of an equation: rows there are four
+    _point().linear([equations[0], wrong], [0, 0])
+
+
+def test_a_row_beside_another_is_a_number_and_a_multiple_of_it() -> None:
+    """3 + 4 x - 2 y is 3 - 2 z along z = -2 x + y, and no function of x + y or of x."""
+    point, row = _point(), _row(3, 4, -2)
+    assert point.along(row, _row(9, -2, 1)) == (3, -2 + _FIELD.number(0))
+    assert point.along(row, _row(0, 1, 1)) is None
+    assert point.along(row, _row(0, 1)) is None
+    assert point.along(row, _row(0, -2, 1, 1)) is None
+    assert point.along(_row(6), _row(0, 1)) == (6, 0)

@@ -109,7 +109,7 @@ _FALLS = ((0, 10, 20), (1, 9, 15), (3, 5, 7))
 
 def _map(name: str, rows: tuple[tuple[int, ...], ...]) -> tuple[Pool, Expr, Expr]:
     pool = Pool()
-    pool.tables[name] = tuple(tuple(map(Fraction, row)) for row in rows)  # type: ignore[assignment]
+    pool.tables[name] = tuple(tuple(map(Fraction, row)) for row in rows)
     return pool, pool.symbol("x", Kind.SENSOR), pool.symbol("y", Kind.SENSOR)
 
 
