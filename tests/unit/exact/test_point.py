@@ -190,3 +190,38 @@ def test_a_row_beside_another_is_a_number_and_a_multiple_of_it() -> None:
     assert point.along(row, _row(0, 1)) is None
     assert point.along(row, _row(0, -2, 1, 1)) is None
     assert point.along(_row(6), _row(0, 1)) == (6, 0)
+
+
+# ------------------------------------------------------------------ one open place of a law
+
+
+def test_an_even_power_has_two_roots_and_an_odd_one_the_sign_of_its_value() -> None:
+    f, random = Reals({}), Random(2)
+
+    def roots(exponent: int, value: int) -> set[float]:
+        power = _POOL.power(_X, exponent)
+        found = (_undone(f, power, f.number(value), _X, {}, random) for _ in range(40))
+        return {round(float(x), 9) for x in found}  # type: ignore[arg-type]
+
+    assert roots(2, 9) == {3.0, -3.0} and roots(-2, 4) == {0.5, -0.5}
+    assert roots(3, 8) == {2.0} and roots(3, -8) == {-2.0}
+    with pytest.raises(Undefined):
+        roots(2, -9)
+
+
+@pytest.mark.parametrize("x_is_known", [False, True])
+def test_a_value_goes_down_to_the_only_place_that_is_open(x_is_known: bool) -> None:
+    """x^2 exp(sinh y) = 12 with x = 2: sinh y is log 3. While x is open too nothing is imposed."""
+    f, pool = Reals({}), Pool()
+    x, y = (pool.symbol(n, Kind.UNKNOWN) for n in "xy")
+    inner = pool.fn("exp", pool.fn("sinh", y))
+    law = pool.mul(inner, pool.power(x, 2))
+    point = Point({x: (0, 1), y: (1, 1)}, Setting({}, f, 1), Random(1))
+    forms = {x: {0: [f.number(1)]}, y: {ORDERS: [f.number(1)]}}
+    if x_is_known:
+        point.add({0: f.number(1), CONSTANT: f.number(-2)})
+    found = point.impose(law, f.number(12), dict(forms), {}, 4)
+    assert found is x_is_known
+    assert point.is_open(forms[y]) is not x_is_known
+    if found:
+        assert float(point.fix(point.row(forms[y]))) == pytest.approx(math.asinh(math.log(3)))
