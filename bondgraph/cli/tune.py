@@ -253,7 +253,7 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
         level = f"a + {x.kappa * x.sigma:.3g}"
         sums = f"{x.height:.1f} sigma" if x.height < NEVER.height else "never: it adds up noise"
         limits.append((name, f"{x.sigma:.3g}", level, sums))
-    stray = {n: x.apart for n, x in best.tuning.limits.items() if x.apart > 0.0}
+    stray = {n: x.apart for n, x in best.tuning.limits.items() if x.apart > x.sigma}
     rows: list[tuple[str, ...]] = [("fault", "change", "", "after", "in")]
     hidden = []
     for shown in best.shown:

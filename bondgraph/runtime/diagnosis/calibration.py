@@ -21,12 +21,12 @@ from bondgraph.runtime.diagnosis.hypotheses import (
     rows_apart,
     sized,
 )
-from bondgraph.runtime.diagnosis.noise import CAREFUL, noise, stepped, uncovered
+from bondgraph.runtime.diagnosis.noise import CAREFUL, noise, stepped, uncovered, within
 from bondgraph.runtime.diagnosis.row_averages import lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
-from bondgraph.runtime.diagnosis.standing import Standing, apart
+from bondgraph.runtime.diagnosis.standing import Levels, apart
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
-from bondgraph.runtime.diagnosis.wander import wander
+from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
@@ -391,9 +391,26 @@ def _limits(
                 unit = mean.unit * sigma / max(own.foreseen(asked), least)
                 unit = max(unit, least * (1.0 + float(mean.weights.sum())))
                 limit = Limit(*limit[:6], unit, off, *mean.weights.tolist())
+            path = _path(logs, k, limit.unit > 0.0)
+            limit = limit._replace(
+                memory=max(path.less**2 * limit.memory, min(limit.memory, 1.0)),
+                unit=limit.unit * path.less, step=path.step, most=path.most,
+            )
         held = float(work.held[k]) if work.free[k] else 0.0
         found[engine.residuals[k]] = limit._replace(held=held, apart=float(far[k]))
     return _higher(found, engine.residuals, logs, work.spread)
+
+
+def _path(logs: Sequence[_Noise], k: int, lasts: bool) -> Wander:
+    """How the level of a residual wanders in logs, in the mean of them by their rows."""
+    values = [(n.averages if lasts else n.rest)[:, [k]] for n in logs]
+    values = [np.where(within(one), one, np.nan)[:, 0] for one in values]
+    found = [(wander(one), np.isfinite(one).sum()) for one in values]
+    told = [(np.square(path), rows) for path, rows in found if path != NONE]
+    if not told:
+        return NONE
+    squares, rows = zip(*told, strict=True)
+    return Wander(*np.sqrt(np.average(np.array(squares), axis=0, weights=rows)).tolist())
 
 
 def _beside_their_own(
@@ -421,29 +438,30 @@ def _higher(
     own = np.array(limits(found, residuals), dtype=float)
     cusum, sure = Cusum(len(own), healthy=True), np.ones(len(own), dtype=bool)
     for log in logs:
-        history, standing = History(spread), Standing(own)
+        history, levels = History(spread), Levels.tuned(own)
         cusum.restart()
         waiting: deque[Row] = deque()
         mean = own[:, 4].copy()
-        for one in log.every:
-            row = _where_it_stands(one, mean, standing.unsure)
+        for number, one in enumerate(log.every):
+            row = _where_it_stands(one, number, mean, levels.unsure)
             new = history.innovation(row, sure)
+            levels.ahead(alarmed=False)
             cusum.add(new, own)
             waiting.append(row)
-            if standing:
-                moved = standing.learn(*beside(new, own))
-                mean += moved
-                for later in waiting:
-                    later.lower(moved)
+            moved = levels.learn(row.time, *beside(new, own), first=True)
             if len(waiting) > HEALTHY:
                 old = waiting.popleft()
+                moved += levels.learn(old.time, *beside(history.innovation(old, sure), own))
                 history.add(*steady(old, weight(old, own[:, 0])))
+            mean += moved
+            for later in waiting:
+                later.lower(moved)
         cusum.end()
     heights = dict(zip(residuals, cusum.heights(own[:, 3]).max(axis=0).tolist(), strict=True))
     return {name: limit._replace(height=heights[name]) for name, limit in found.items()}
 
 
-def _where_it_stands(row: Row, mean: Array, unsure: Array) -> Row:
+def _where_it_stands(row: Row, number: int, mean: Array, unsure: Array) -> Row:
     """A row beside a mean, with room for what is not known of that."""
     own = row.average
     assert own is not None
@@ -451,7 +469,7 @@ def _where_it_stands(row: Row, mean: Array, unsure: Array) -> Row:
     own = own._replace(value=own.value.copy(), bound=bound, doubt=doubt)
     bound, doubt = row.bound + unsure, row.doubt + unsure
     value = np.where(row.valid, row.value, 0.0)
-    found = row._replace(value=value, mean=mean, bound=bound, doubt=doubt, average=own)
+    found = row._replace(time=number, value=value, mean=mean, bound=bound, doubt=doubt, average=own)
     found.lower(mean)
     return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import deque
 from collections.abc import Iterator
@@ -35,10 +36,9 @@ from bondgraph.runtime.diagnosis.rows import (
 )
 from bondgraph.runtime.diagnosis.sensor_offsets import SensorOffsets, sensor_offsets
 from bondgraph.runtime.diagnosis.signal_checks import SignalChecks
-from bondgraph.runtime.diagnosis.standing import Standing
+from bondgraph.runtime.diagnosis.standing import Levels
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
-from bondgraph.runtime.diagnosis.wander import Levels
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.runtime.monitoring.plain import array, numbers
@@ -77,7 +77,6 @@ class Diagnosis:
         self._doubt = Doubt(engine, model)
         self._origins = Origins(engine, model.memories, self._every)
         self._past: deque[Row] = deque(maxlen=int(_MEMORY))
-        self._levels = Levels(len(used))
         self._learning: Learning | None = None
         if tuning is None:
             self._learning = Learning(engine, known, used, model)
@@ -85,7 +84,7 @@ class Diagnosis:
             self._limits = self._learning.limits
         else:
             self._limits = np.array(limits(tuning.limits, engine.residuals), dtype=float)
-        self._standing = Standing(self._limits)
+            self._levels = Levels.tuned(self._limits)
         learns = tuning is None
         self._detection = Detection(engine.residuals, max(3, self._every // 10), learns)
         model.doubles()  # found now: an alarm cannot wait for it
@@ -139,7 +138,7 @@ class Diagnosis:
                 healthy = not self._detection.alarmed
                 fresh = self._learning.part(part, healthy, self._doubt.acted)
                 self._status.relearning(float(part.time[0]), fresh, out)
-            line = part.bound + self._limits[:, 2] * self._limits[:, 0]
+            line = part.bound + self._levels.beyond(self._limits)
             line += self._offsets.room(part, line, self._history)
             line[~np.isfinite(line)] = math.nan
             self._last.append(Batch(part.value, part.valid, line))
@@ -173,7 +172,7 @@ class Diagnosis:
             valid = valid & sound
             value = np.where(valid, value - self._limits[:, 4], 0.0)
             self._status.warm_up(time[own], valid, self._limits[:, 0], self._origins, out)
-            doubt = doubt + self._standing.unsure
+            doubt = doubt + self._levels.unsure
             bound = np.where(valid, bound + slack(self._tolerated, slopes) + doubt, 0.0)
             yield Part(time[own], samples[own], value, valid, bound, doubt, slopes)
 
@@ -240,7 +239,7 @@ class Diagnosis:
                 self._learning = None
         unsure = False if self._learning is None else self._learning.unsure
         self._levels.ahead(self._detection.alarmed)
-        own = self._levels.beside(self._innovation(row, unsure))
+        own = self._innovation(row, unsure)
         fresh = self._detection.row(own, self._limits)
         if fresh.any():
             self._fire(row.time, fresh, [], out)
@@ -272,15 +271,20 @@ class Diagnosis:
         self._stood(self._limits[:, 4] - before)
         return fresh
 
-    def _stands(self, moved: Array) -> None:
-        """This machine stands elsewhere by so much while all is well."""
+    def _stands(self, row: Row, first: bool = False) -> None:
+        """Where this machine stands while all is well, with a healthy row more."""
+        sound = ~self._offsets.steep(row, self._history)
+        value, bound, valid = beside(self._history.innovation(row, sound), self._limits)
+        moved = self._levels.learn(row.time, value, bound, valid & sound, first)
+        moved += self._levels.drifted(self._limits)
         self._limits[:, 4] += moved
         self._stood(moved)
 
     def _stood(self, moved: Array) -> None:
         """So it did in the rows before."""
         if moved.any():
-            for one in self._past:
+            longer = itertools.islice(self._calm, max(0, len(self._calm) - len(self._past)))
+            for one in (*longer, *self._past):
                 one.lower(moved)
             mean = self._limits[:, 4].copy()
             self._past = deque((r._replace(mean=mean) for r in self._past), self._past.maxlen)
@@ -293,26 +297,18 @@ class Diagnosis:
         if self._detection.suspects(row, self._limits):
             self._calm.clear()
             return
-        if self._standing:
-            self._stands(self._standing.learn(*self._beside(row)))
         self._calm.append(row)
+        self._stands(row, first=True)
         self._offsets.row(row, self._history)
         waits = not self._offsets.known or (self._learning is not None and self._learning.first)
         wait = int(_MEMORY) if waits else max(HEALTHY, int(self._detection.held.max(initial=0)))
         while len(self._calm) > wait:
             old = self._calm.popleft()
-            if self._levels.walking:
-                self._levels.learn(*self._beside(old))
+            self._stands(old)
             sound = ~self._offsets.steep(old, self._history)
             self._history.add(*steady(old, self._weight(old) * sound))
             self._offsets.learned(old, self._history)
             self._origins.learn(self._tolerated, self._history)
-
-    def _beside(self, row: Row) -> tuple[Array, Mask]:
-        """What a row is beside the parameters that healthy rows have told of."""
-        sound = ~self._offsets.steep(row, self._history)
-        value, valid = beside(self._history.innovation(row, sound), self._limits)
-        return value, valid & sound
 
     def _weight(self, row: Row) -> Array:
         return weight(row, self._limits[:, 0])
@@ -455,7 +451,6 @@ class Diagnosis:
         self._origins.resume(other._origins.state(known[self._lasting :]))
         self._checks.resume({**other._checks.state(), "active": []})
         self._levels.resume(other._levels.state())
-        self._standing.resume(other._standing.state())
         if self._learning is not None and other._learning is not None:
             self._learning.resume(other._limits, other._learning.state())
         elif other._learning is None:
@@ -478,7 +473,6 @@ class Diagnosis:
             "unusual": self._checks.state(),
             "driving": self._learning and self._learning.state(),
             "levels": self._levels.state(),
-            "standing": self._standing.state(),
         }
 
     def resume(self, state: dict[str, Any]) -> None:
@@ -498,7 +492,6 @@ class Diagnosis:
         self._origins.resume(state["origins"])
         self._checks.resume(state["unusual"])
         self._levels.resume(state["levels"])
-        self._standing.resume(state["standing"])
         if self._learning is not None:
             self._learning.resume(levels, state["driving"])
             self._limits = levels

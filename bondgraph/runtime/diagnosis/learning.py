@@ -15,8 +15,9 @@ from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows
 from bondgraph.runtime.diagnosis.noise import CAREFUL, Noise, noise, stepped, uncovered, within
 from bondgraph.runtime.diagnosis.row_averages import lasting
 from bondgraph.runtime.diagnosis.rows import Part, Row, variances
+from bondgraph.runtime.diagnosis.standing import Levels
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
-from bondgraph.runtime.diagnosis.wander import Levels, wander
+from bondgraph.runtime.diagnosis.wander import wander
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.plain import array
@@ -67,7 +68,7 @@ class Learning:
         used: Mask,
         model: DiagnosisModel,
     ) -> None:
-        self.levels = Levels(len(used))  #: where residuals stand as they wander
+        self.levels = Levels(len(used))  #: where residuals stand, as they wander
         counted = {h.fault for h in known if h.unit == COUNT}  # exact, however far they have come
         self._gains = tuple(h for h in known if h.kind == "gain" and h.fault not in counted)
         self._engine = engine
@@ -334,6 +335,7 @@ class Learning:
         left = np.where(np.isfinite(values), beyond[:, k], math.nan)
         self.off[k] = self._rests[k] and _off(left, float(owed[k]))
         self.limits[k, 0] = max(self._sigma[k].values())
+        stood = float(self.limits[k, 4]) + self._further(k)
         self.limits[k, 4:6] = found.mean, found.memory
         if not math.isfinite(self.limits[k, 13]):  # the highest sample was above no such doubt
             self.limits[k, 13] = self._acted[k]
@@ -343,20 +345,36 @@ class Learning:
             own = np.where(np.isfinite(values), average[:, k], math.nan)
             wider = self.limits[k, 0] / spread if spread > 0.0 else 1.0
             self.limits[k, 6:12] = self._averages(k, own, float(owed[k]), found.mean, wider)
-            self._walk(k, values, own, found)
+            self._walk(k, values, own, found, stood, _ABOVE * highest)
         return unknown
 
-    def _walk(self, k: int, values: Array, averages: Array, found: Noise) -> None:
+    def _walk(
+        self, k: int, values: Array, averages: Array, found: Noise, stood: float, least: float
+    ) -> None:
         """How the level of a residual wanders, and what noise there is beside that.
 
-        By the averages of rows where these are known, else by rows. Sums reckon with no more noise.
+        By the averages of rows where these are known, else by rows. Sums reckon with no more noise,
+        nor do samples: beside its level as many rows are independent as there are, where noise of a
+        long memory has few. `stood` is where it was taken to stand before, `least` the noise that
+        samples have shown.
         """
-        lasts = bool(self.limits[k, 6] > 0.0)
+        lasts, further = bool(self.limits[k, 6] > 0.0), self._further(k)
         path = wander(averages if lasts else values)
-        mean = found.mean + float(self.limits[k, 7]) if self._centred[k] else 0.0
-        self.levels.begin(k, path, mean, found.rows)
-        self.limits[k, 5] = max(path.less**2 * found.memory, min(found.memory, 1.0))
+        mean = self.levels.begin(k, path, stood, found.mean + further, found.rows)
+        self.limits[k, 4] = mean - further
+        sigma = (wander(values) if lasts else path).alone or found.sigma
+        beside = Noise(0.0, sigma, 0.0, found.rows - 2.0, found.rows)
+        if path.step > 0.0:
+            most = beside.foreseen(float(self.limits[k, 2]))
+            most = max(most, least, float(self._least(sigma)[k]))
+            self.limits[k, 0] = min(self.limits[k, 0], most)
+        whole = (path.less * found.sigma / sigma) ** 2 * found.memory
+        self.limits[k, 5] = max(whole, min(found.memory, 1.0))
         self.limits[k, 6] *= path.less
+
+    def _further(self, k: int) -> float:
+        """By how much averages of rows stand above the mean, where they tell the level."""
+        return float(self.limits[k, 7]) if self.limits[k, 6] > 0.0 else 0.0
 
     def _averages(self, k: int, values: Array, owed: float, mean: float, wider: float) -> Array:
         """What the averages of rows tell, as `Limit` has it behind the numbers of rows.

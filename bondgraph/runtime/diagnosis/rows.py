@@ -63,17 +63,19 @@ class Row(NamedTuple):
             self.average.value[self.average.valid] -= by[self.average.valid]
 
 
-def beside(row: Row, limits: Array) -> tuple[Array, Mask]:
-    """How far residuals with these `limits` are from where they stand, and of which it is known.
+def beside(row: Row, limits: Array) -> tuple[Array, Array, Mask]:
+    """How far residuals with these `limits` are from where they stand, the bounds of that, and of
+    which it is known.
 
     By the averages of rows where noise is known of these.
     """
     known = np.isfinite(limits[:, 0])
     if row.average is None:
-        return row.value, row.valid & known
+        return row.value, row.bound, row.valid & known
     lasting = limits[:, 6] > 0.0
     value = np.where(lasting, row.average.value - limits[:, 7], row.value)
-    return value, np.where(lasting, row.average.valid, row.valid) & known
+    bound = np.where(lasting, row.average.bound, row.bound)
+    return value, bound, np.where(lasting, row.average.valid, row.valid) & known
 
 
 def to_row_ends(time: Array, sample_time: float, every: int) -> Iterator[slice]:

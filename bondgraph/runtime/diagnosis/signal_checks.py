@@ -30,8 +30,9 @@ _WHITE = 0.7  # so rough beside its own motion is white noise at least: 0.8 or m
 _CHANGES = 0.3  # share of the samples that differ from the last, in any row of a noisy signal
 _STILL = 5.0  # times as long as it ever stood still
 _LEAST = 20  # samples that it has to stand still for
-_QUIET = 3  # rows after which it is as it was
-_PAUSE = 32  # rows: what comes back within them has to be away for twice as long the next time
+_QUIET = 3  # rows after which it is as it was; a spike is over with its own
+_SOON = 4  # times the rows that it had to be quiet: what comes back within them has not been away
+_PAUSE = 32  # rows that what comes and goes has to be away at most, twice as long as it ever was
 _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
 _SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
@@ -182,7 +183,9 @@ class SignalChecks:
         fresh = [one for name, one in found.items() if name not in self.active]
         for one in fresh:
             gone = self._away.get(one.signal, _PAUSE + 1)
-            self._needed[one.signal] = min(2 * gone, _PAUSE) if gone <= _PAUSE else _QUIET
+            quiet = 1 if one.kind == "spike" else _QUIET
+            soon = min(_SOON * self._needed.get(one.signal, quiet), _PAUSE)
+            self._needed[one.signal] = min(2 * gone, _PAUSE) if gone <= soon else quiet
             self.active[one.signal] = one
         for name in (*self._names, *self._encoders.names):
             shown = name in found or name in driven

@@ -13,56 +13,119 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from scipy.special import chdtri, stdtrit
+from scipy.special import stdtrit
 
 from bondgraph.runtime.diagnosis.noise import noise
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
+from bondgraph.runtime.diagnosis.wander import Wander
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
-_ALIKE = 0.01  # probability that logs of one mean are taken for some that stand apart
 FIRST = 6  #: rows of a log, or of a machine, that tell where it stands
 _BEYOND = 0.0005  # probability that one more log stands beyond the room for that, to either side
 
 
-class Standing:
-    """Learns where residuals stand, of which the `limits` of a tuning say how far that may be.
+class Levels:
+    """Where the residuals of a healthy machine stand, and how sure that is.
 
-    Its first rows tell (Kalman 1960, of a level that stays): before there are some of them there is
-    room for all places where a machine may stand, as these rows may be of one that warms up. Each
-    healthy row behind them tells more.
+    A filter of Kalman (1960) for each: its level has a variance that grows by that of a `Wander`
+    with each row, and shrinks with each row of a healthy machine. Of another machine than those of
+    a tuning some rows have to tell first where it stands: before there is room for all places, as
+    these rows may be of one that warms up. What goes further than it wanders is a fault that comes
+    on slowly: it is not followed.
     """
 
-    def __init__(self, limits: Array) -> None:
-        self._variance = np.square(limits[:, 14])
-        self._room = UNKNOWN * limits[:, 14]
-        self._level, self._rows = np.zeros(len(limits)), np.zeros(len(limits))
+    def __init__(self, residuals: int) -> None:
+        self._step, self._most, self._noise, self._variance = np.zeros((4, residuals))
+        self._covered = np.zeros(residuals)  # of the variance, that limits have room for
+        self._room = np.zeros(residuals)  # before some rows have told
+        self._gone, self._free = np.zeros((2, residuals))  # since then, and the variance of that
+        self._rows, self._last = np.zeros(residuals), np.full(residuals, -math.inf)
+
+    @classmethod
+    def tuned(cls, limits: Array) -> Levels:
+        """Of some machine, as the `limits` of a tuning say."""
+        found = cls(len(limits))
+        found._step, found._most = limits[:, 15:17].T.copy()
         alone = limits[:, 0] * np.sqrt(limits[:, 5])
         lasting = limits[:, 6] / (1.0 + limits[:, 8:12].sum(axis=1))
-        #: Deviation with which noise of a row adds up.
-        self._noise = np.where(limits[:, 6] > 0.0, lasting, alone)
+        found._noise = np.where(limits[:, 6] > 0.0, lasting, alone)
+        known = np.isfinite(limits[:, 0])
+        found._variance = np.where(known, limits[:, 14] ** 2 + found._noise**2, 0.0)
+        found._room = UNKNOWN * np.sqrt(found._variance)
+        return found
 
-    def __bool__(self) -> bool:
-        return bool(self._room.any())
+    def begin(self, k: int, found: Wander, stood: float, mean: float, rows: int) -> float:
+        """Where a residual stands that wanders as was `found` of so many rows with this mean.
+
+        Found once more, it stands where it `stood` by the rows since, and not where these come to
+        with parameters that fit them best: those are others than what a row is judged beside.
+        """
+        follows = self._step[k] > 0.0
+        self._free[k] = self._free[k] if follows else found.variance
+        self._gone[k] = self._gone[k] if follows else 0.0
+        self._step[k], self._most[k], self._noise[k] = found.step, found.most, found.noise
+        self._variance[k] = max(self._variance[k], found.variance) if found.step > 0.0 else 0.0
+        self._rows[k], self._covered[k] = rows, found.noise**2 / rows
+        return (stood if follows else found.level) if found.step > 0.0 else mean
 
     @property
     def unsure(self) -> Array:
-        """How far from where it is taken to stand each residual may be, (residuals,)."""
-        return np.where(self._rows < FIRST, self._room, UNKNOWN * np.sqrt(self._variance))
+        """How far from where it is taken to stand each residual may be, (residuals,).
 
-    def learn(self, value: Array, valid: Mask) -> Array:
-        """By how much residuals are taken to stand elsewhere, after a healthy row.
-
-        `value` is how far they are from where they were taken to stand.
+        What a mean of rows is off by for their noise is no part of it where limits have room for
+        that.
         """
-        own = valid & (self._variance > 0.0)
-        whole = self._variance + self._noise**2
+        unknown = UNKNOWN * np.sqrt(np.maximum(self._variance - self._covered, 0.0))
+        return np.where(self._rows < FIRST, self._room, unknown)
+
+    def beyond(self, limits: Array) -> Array:
+        """How far beyond their bounds samples may be, (residuals,).
+
+        By the noise of a sample and what is not known of the level, together.
+        """
+        unsure = np.where(self._rows < FIRST, 0.0, self.unsure)
+        return _line(limits, unsure / UNKNOWN) - unsure
+
+    def ahead(self, alarmed: bool) -> None:
+        """A row passes. An alarm is what a walk makes, too: while it lasts there is one."""
+        more = (self._most if alarmed else self._step) ** 2
+        self._variance += more
+        self._free += more
+
+    def drifted(self, limits: Array) -> Array:
+        """By how much residuals have been followed that have gone too far, which is taken back.
+
+        That is as far as no sample may be, from where each stood first.
+        """
+        far = np.abs(self._gone) > _line(limits, np.sqrt(self._free))
+        back = np.where(far, -self._gone, 0.0)
+        self._variance = np.where(far, self._free, self._variance)
+        self._gone[far] = 0.0
+        return back
+
+    def learn(
+        self, time: float, value: Array, bound: Array, valid: Mask, first: bool = False
+    ) -> Array:
+        """By how much residuals are taken to stand elsewhere, after a healthy row of this time.
+
+        `value` is how far they are from where they were taken to stand, within a `bound` that has
+        room for what is not known of that: what else it has room for tells nothing of a level. The
+        `first` rows tell at once, later ones when it is known that no fault began in them; none
+        tells twice.
+        """
+        other = np.maximum(bound - self.unsure, 0.0) / UNKNOWN
+        own = valid & (self._variance > 0.0) & (time > self._last)
+        own &= (self._rows < FIRST) | (not first)
+        whole = self._variance + self._noise**2 + other**2
         gain = np.where(own, self._variance / np.where(own, whole, 1.0), 0.0)
-        self._level += gain * np.where(own, value - self._level, 0.0)
+        moved = gain * np.where(own, value, 0.0)
         self._variance *= 1.0 - gain
+        begins = own & (self._rows < FIRST)
         self._rows += own
-        moved = np.where(self._rows >= FIRST, self._level, 0.0)
-        self._level -= moved
+        self._last[own] = time
+        self._gone = np.where(begins, 0.0, self._gone + moved)
+        self._free = np.where(begins, self._variance, self._free)
         return moved
 
     def state(self) -> list[Any]:
@@ -75,25 +138,30 @@ class Standing:
             table[:] = array(known, table.shape)
 
     def _tables(self) -> tuple[Array, ...]:
-        return self._variance, self._level, self._rows
+        return (self._step, self._most, self._noise, self._variance, self._covered, self._room,
+                self._gone, self._free, self._rows, self._last)  # fmt: skip
+
+
+def _line(limits: Array, deviation: Array) -> Array:
+    """How far samples with these `limits` may be off, whose level has such a deviation."""
+    known = np.isfinite(limits[:, 0])
+    sigma = np.where(known, limits[:, 0], 0.0)
+    return np.where(known, limits[:, 2] * np.hypot(sigma, deviation), math.inf)
 
 
 def apart(logs: Sequence[Array]) -> tuple[float, Array]:
     """How far healthy logs of a residual stand apart, from the rows of each, NaN without a value.
 
     The deviation by which one more log may stand elsewhere than their mean, and where each stands
-    beside that, (logs,). Both are zero where all may have the same mean by the noise of each
-    (Cochran 1937, Q), else the first is by the moments (DerSimonian and Laird 1986), and wider, as
-    few logs tell it badly: the room for it is by Student's t. A row of the machine tells more.
+    beside that, (logs,). Few logs tell it badly: one more stands within `UNKNOWN` deviations in 999
+    of 1000 cases (the prediction interval of Student's t). One log alone tells nothing.
 
     >>> draw = np.random.default_rng(1)
     >>> same = [draw.normal(3.0, 1.0, 400) for _ in range(5)]
-    >>> apart(same)[0]
-    0.0
     >>> other = [one + level for one, level in zip(same, (-2.0, 1.0, 0.0, 2.0, -1.0))]
     >>> found, stands = apart(other)
-    >>> round(found, 1), stands.round(1).tolist()
-    (7.5, [-2.1, 1.0, -0.0, 2.0, -0.9])
+    >>> round(apart(same)[0], 1), round(found, 1), stands.round(1).tolist()
+    (0.3, 7.5, [-2.1, 1.0, -0.0, 2.0, -0.9])
     """
     found = [noise(one) for one in logs]
     good = np.array([one.rows >= FIRST for one in found])
@@ -101,14 +169,6 @@ def apart(logs: Sequence[Array]) -> tuple[float, Array]:
     count, stands = len(means), np.zeros(len(logs))
     if count < 2:
         return 0.0, stands
-    own = [one for one, known in zip(found, good, strict=True) if known]
-    variance = np.array([one.sigma**2 * one.memory / one.rows for one in own])
-    if not variance.all():
-        return 0.0, stands
-    common = float((means / variance).sum() / (1.0 / variance).sum())
-    between = float(np.var(means, ddof=1)) - float(variance.mean())
-    if between <= 0.0 or ((means - common) ** 2 / variance).sum() < chdtri(count - 1, _ALIKE):
-        return 0.0, stands
     stands[good] = means - means.mean()
     wider = -float(stdtrit(count - 1, _BEYOND)) / UNKNOWN
-    return wider * math.sqrt(between * (1.0 + 1.0 / count)), stands
+    return wider * float(means.std(ddof=1)) * math.sqrt(1.0 + 1.0 / count), stands

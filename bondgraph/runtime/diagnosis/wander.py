@@ -9,14 +9,10 @@ sums of rows may reckon that it comes back.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.rows import Row
-from bondgraph.runtime.diagnosis.tuning import UNKNOWN
-from bondgraph.runtime.log import Array, Mask
-from bondgraph.runtime.monitoring.plain import array, numbers
+from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
 _MEMORIES = (-0.3, 0.0, 0.3, 0.6, 0.8)  # correlations of noise from row to row that are tried
@@ -30,7 +26,8 @@ class Wander(NamedTuple):
 
     `step` is the deviation of what it moves in a row, `most` that of a residual which is known to
     wander. Behind the last row it stands at `level`, with this `variance`. Noise beside it adds up
-    with the deviation `noise`: `less` times that of a residual which does not wander.
+    with the deviation `noise`: `less` times that of a residual which does not wander. A row alone
+    is off by `alone`.
     """
 
     step: float
@@ -39,9 +36,10 @@ class Wander(NamedTuple):
     variance: float
     noise: float
     less: float
+    alone: float
 
 
-NONE = Wander(0.0, 0.0, 0.0, 0.0, 0.0, 1.0)  #: of rows that tell nothing
+NONE = Wander(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)  #: of rows that tell nothing
 
 
 def wander(values: Array) -> Wander:
@@ -86,6 +84,7 @@ def wander(values: Array) -> Wander:
         unit**2 * float(weight @ (variance * scale + (level - stands) ** 2)),
         unit * math.sqrt(float(weight @ noise)),
         math.sqrt(min(float(weight @ noise) / most, 1.0)),
+        unit * math.sqrt(float(weight @ scale)),
     )
 
 
@@ -113,76 +112,3 @@ def _filtered(own: Array, kept: Array, step: Array) -> tuple[Array, Array, Array
         )  # fmt: skip
         size, fit = size + np.log(whole), fit + off**2 / whole
     return level, var, size, fit
-
-
-class Levels:
-    """Where the residuals of a healthy machine stand now, beside the mean that is known of them.
-
-    A filter of Kalman (1960) for each: its level has a variance that grows by that of a step with
-    each row, and shrinks with each row of a healthy machine. A residual that is not known to wander
-    stands at its mean.
-    """
-
-    def __init__(self, residuals: int) -> None:
-        self._steps, self._most = np.zeros(residuals), np.zeros(residuals)
-        self._noise, self._rows = np.zeros(residuals), np.ones(residuals)
-        self._level, self._variance = np.zeros(residuals), np.zeros(residuals)
-        self._mean = np.zeros(residuals)  # that levels are beside
-
-    @property
-    def walking(self) -> bool:
-        """Whether any residual wanders; with a tuning none does."""
-        return bool(self._steps.any())
-
-    def begin(self, k: int, found: Wander, mean: float, rows: int) -> None:
-        """A residual wanders as was `found` of so many rows, whose mean is known.
-
-        Found once more, it stands where rows have told since, and not where these come to with
-        parameters that fit them best: those are others than what a row is judged beside.
-        """
-        stands = self._mean[k] + self._level[k] if self._steps[k] > 0.0 else found.level
-        self._steps[k], self._most[k], self._noise[k] = found.step, found.most, found.noise
-        self._level[k] = stands - mean if found.step > 0.0 else 0.0
-        self._variance[k] = max(self._variance[k], found.variance)
-        self._rows[k], self._mean[k] = rows, mean
-
-    def ahead(self, alarmed: bool) -> None:
-        """A row passes. An alarm is what a walk makes, too: while it lasts there is one."""
-        self._variance += (self._most if alarmed else self._steps) ** 2
-
-    def learn(self, value: Array, valid: Mask) -> None:
-        """A row of a healthy machine, beside the mean, where it is `valid`."""
-        own = valid & (self._steps > 0.0)
-        whole = self._variance + self._noise**2
-        gain = np.where(own, self._variance / np.where(own, whole, 1.0), 0.0)
-        self._level += gain * np.where(own, value - self._level, 0.0)
-        self._variance *= 1.0 - gain
-        self._rows += own
-
-    def beside(self, row: Row) -> Row:
-        """A row beside where residuals stand; its bound is wider by what is not known of that.
-
-        What a mean of so many rows is off by for their noise is no part of it: limits have room
-        for that.
-        """
-        if not self.walking:
-            return row
-        own, noise = row.average, self._noise**2 / self._rows
-        unknown = np.sqrt(np.maximum(self._variance - noise, 0.0))
-        more = UNKNOWN * unknown
-        if own is not None:
-            own = own._replace(value=own.value - self._level, bound=own.bound + more)
-        return row._replace(value=row.value - self._level, bound=row.bound + more, average=own)
-
-    def state(self) -> list[Any]:
-        """All that `resume` needs, as plain JSON."""
-        return [numbers(table) for table in self._tables()]
-
-    def resume(self, state: Any) -> None:
-        """Go on from a state; raises TypeError or ValueError for one of another kind."""
-        for table, known in zip(self._tables(), state, strict=True):
-            table[:] = array(known, table.shape)
-
-    def _tables(self) -> tuple[Array, ...]:
-        return (self._steps, self._most, self._noise, self._rows, self._level, self._variance,
-                self._mean)  # fmt: skip

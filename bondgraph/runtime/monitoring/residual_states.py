@@ -59,10 +59,11 @@ class Change(NamedTuple):
 class ResidualStates:
     """Follows the states of the residuals of an engine from sample to sample.
 
-    A residual is in `alarm` from when it has fired until that is cleared or accepted; else
-    `healthy` while it has a value and a threshold; `blind` while nobody knows its noise, while a
-    signal that it reads has no number, and where it had no value for five warm-ups for another
-    reason; else `warming up`. `samples` counts them, (residuals, states).
+    A residual is in `alarm` from when it has fired until that is cleared or accepted, and where it
+    is above its threshold meanwhile; else `healthy` while it has a value and a threshold; `blind`
+    while nobody knows its noise, while a signal that it reads has no number, and where it had no
+    value for five warm-ups for another reason; else `warming up`. `samples` counts them,
+    (residuals, states).
     """
 
     def __init__(self, engine: Engine) -> None:
@@ -117,8 +118,10 @@ class ResidualStates:
             codes[~valid] = np.where(age > self._patience, _BLIND, _WARMING)[~valid]
             codes[~valid & lacking] = _BLIND
         fired, named = self._latched(time, verdicts)
-        codes[fired[:, :-1]] = _ALARM
         active: Mask = np.asarray(fired.any(axis=1), dtype=np.bool_)
+        with np.errstate(invalid="ignore"):
+            beyond = known & valid & (np.abs(decided.value) > decided.bound)
+        codes[fired[:, :-1] | (beyond & active[:, None])] = _ALARM
         whole = np.where(valid.any(axis=1), _BLIND, _WARMING)
         whole[(valid & known).any(axis=1)] = _HEALTHY
         whole[active] = _ALARM

@@ -10,8 +10,9 @@ import pytest
 
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.cusum import on_board
-from bondgraph.runtime.diagnosis.standing import FIRST, Standing, apart
+from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning
+from bondgraph.runtime.diagnosis.wander import Wander
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 from tests.unit.runtime.diagnosis.tank import tank
@@ -34,29 +35,69 @@ def test_one_more_log_stands_within_the_room_for_it(count: int) -> None:
     assert outside <= 3
 
 
-def test_logs_of_one_mean_do_not_stand_apart() -> None:
-    draw = np.random.default_rng(5)
-    assert sum(apart(_logs(draw, 4, 0.0))[0] > 0.0 for _ in range(200)) <= 8
-    assert apart(_logs(draw, 1, 3.0))[0] == 0.0
+def test_logs_of_one_mean_stand_apart_by_what_their_means_are_off() -> None:
+    """Where they are many, by the deviation of a mean; one log alone tells nothing."""
+    found, _ = apart(_logs(np.random.default_rng(5), 200, 0.0))
+    assert found == pytest.approx(3.29 / UNKNOWN / np.sqrt(80.0), rel=0.2)
+    assert apart(_logs(np.random.default_rng(5), 1, 3.0))[0] == 0.0
     assert apart([np.full(50, np.nan), np.ones(50)])[0] == 0.0
 
 
 def test_where_a_machine_stands_is_known_after_some_rows_as_their_mean() -> None:
-    """By a prior that is wide beside the noise, the estimate is the mean of the rows."""
+    """By a prior that is wide beside the noise; it is as wide as that where logs tell nothing."""
     limits = np.array([Limit(1.0, 1.0, 4.0, 9.0, apart=50.0), Limit(1.0, 1.0, 4.0, 9.0)])
-    standing, at = Standing(limits.astype(float)), np.zeros(2)
+    levels, at = Levels.tuned(limits.astype(float)), np.zeros(2)
     values = np.random.default_rng(1).normal(7.0, 1.0, 40)
+    known = np.ones(2, dtype=bool)
     for k, value in enumerate(values):
-        assert standing.unsure.tolist() == pytest.approx(
-            [UNKNOWN * 50.0 if k < FIRST else UNKNOWN / np.sqrt(k), 0.0], rel=1e-2
-        )
-        moved = standing.learn(np.full(2, value) - at, np.ones(2, dtype=bool))
-        assert k + 1 >= FIRST or not moved.any()
-        at += moved
-    assert at.tolist() == pytest.approx([values.mean(), 0.0], abs=0.02)
-    other = Standing(limits.astype(float))
-    other.resume(json.loads(json.dumps(standing.state())))
-    assert other.state() == standing.state()
+        first = UNKNOWN * np.sqrt([2501.0, 1.0])
+        rest = UNKNOWN / np.sqrt([k + 1 / 2501.0, k + 1.0])
+        assert levels.unsure.tolist() == pytest.approx((first if k < FIRST else rest).tolist())
+        levels.ahead(alarmed=False)
+        at += levels.learn(float(k), np.full(2, value) - at, levels.unsure, known)
+    assert at.tolist() == pytest.approx([values.mean(), values.sum() / 41.0], abs=1e-3)
+    other = Levels.tuned(limits.astype(float))
+    other.resume(json.loads(json.dumps(levels.state())))
+    assert other.state() == levels.state()
+
+
+def test_no_row_tells_twice_and_later_ones_only_when_they_are_known_to_be_healthy() -> None:
+    limits = np.array([Limit(1.0, 1.0, 4.0, 9.0, step=0.1, most=0.2)], dtype=float)
+    levels, known, at = Levels.tuned(limits), np.ones(1, dtype=bool), []
+    for k in range(2 * FIRST):
+        levels.ahead(alarmed=False)
+        own = [levels.learn(k, np.ones(1), levels.unsure, known, first=True) for _ in range(2)]
+        at.append([bool(moved[0]) for moved in own])
+    assert at == [[True, False]] * FIRST + [[False, False]] * FIRST
+    moved = [levels.learn(k, np.ones(1), levels.unsure, known)[0] for k in range(2 * FIRST)]
+    assert not any(moved[:FIRST]) and all(moved[FIRST:])
+
+
+def test_what_a_bound_has_room_for_otherwise_tells_nothing_of_a_level() -> None:
+    """A residual that a parameter may move by 20 deviations is no level of its own."""
+    limits = np.array([Limit(1.0, 1.0, 4.0, 9.0)], dtype=float)
+    levels, known = Levels.tuned(limits), np.ones(1, dtype=bool)
+    (moved,) = levels.learn(0.0, np.array([10.0]), levels.unsure + UNKNOWN * 20.0, known)
+    assert moved == pytest.approx(10.0 / (1.0 + 1.0 + 400.0))
+
+
+def test_what_goes_further_than_it_wanders_is_taken_back() -> None:
+    """After n rows a walk of step s is s sqrt(n) away: 4 times that, and the noise of a row."""
+    limits = np.array([Limit(1.0, 1.0, 4.0, 9.0)], dtype=float)
+    for rate, drifts in ((0.002, False), (0.05, True)):
+        levels, known = Levels(1), np.ones(1, dtype=bool)
+        at = levels.begin(0, Wander(0.1, 0.1, 3.0, 0.01, 1.0, 1.0, 1.0), 0.0, 2.5, 100)
+        assert at == 3.0
+        for k in range(1000):
+            levels.ahead(alarmed=False)
+            value = 3.0 + rate * k - at
+            at += float(levels.learn(k, np.array([value]), levels.unsure, known)[0])
+            (back,) = levels.drifted(limits)
+            if back:
+                assert at + back == pytest.approx(3.0)
+                assert -back > 4.0 * np.hypot(1.0, 0.1 * np.sqrt(k)) - 0.2
+                break
+        assert (k < 500) == drifts
 
 
 def test_code_that_learns_nothing_has_room_for_all_places() -> None:

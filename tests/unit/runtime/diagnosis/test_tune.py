@@ -199,7 +199,8 @@ def test_a_limit_stays_above_what_a_healthy_machine_has_reached(first: bool) -> 
     logs = [pulse, quiet] if first else [quiet, pulse]
     limit = tune(engine, model().diagnosis_model, logs, "digest", 2.0, _WINDOW).tuning.limits["r1"]
     reached = np.abs(engine.configured().run(pulse).value - limit.mean).max()
-    assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached)
+    # each log is beside where it stands itself
+    assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached, rel=1e-3)
 
 
 def test_what_is_watched_before_all_are_warm_counts() -> None:

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph.runtime.diagnosis.wander import NONE, Levels, Wander, wander
+from bondgraph.runtime.diagnosis.standing import Levels
+from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 from tests.unit.runtime.diagnosis.tank import tank
@@ -73,36 +74,40 @@ def test_rows_that_tell_nothing() -> None:
 def test_a_level_follows_as_the_best_linear_estimate() -> None:
     """By the covariances of the levels and of the rows, all at once (Gauss and Markov)."""
     before, step, noise, values = 0.5, 0.3, 1.2, np.array([1.0, 2.5, -0.3, 1.7])
-    levels = Levels(1)
-    levels.begin(0, Wander(step, step, 0.0, before, noise, 1.0), 0.0, 10)
-    for value in values:
+    levels, stands = Levels(1), 0.0
+    levels.begin(0, Wander(step, step, 0.0, before, noise, 1.0, noise), 0.0, 0.0, 10)
+    for time, value in enumerate(values):
         levels.ahead(alarmed=False)
-        levels.learn(np.array([value]), np.array([True]))
+        value -= stands
+        stands += _moved(levels, time, value)
     at = np.arange(1, 5)
     own = before + step**2 * np.minimum.outer(at, at)
     found = own[-1] @ np.linalg.solve(own + noise**2 * np.eye(4), values)
     left = own[-1, -1] - own[-1] @ np.linalg.solve(own + noise**2 * np.eye(4), own[-1])
-    level, variance = levels.state()[4:6]
-    assert level == pytest.approx([found]) and variance == pytest.approx([left])
+    assert stands == pytest.approx(found) and levels.state()[3] == pytest.approx([left])
     other = Levels(1)
     other.resume(json.loads(json.dumps(levels.state())))
     assert other.state() == levels.state()
 
 
+def _moved(levels: Levels, time: float, value: float) -> float:
+    return float(levels.learn(time, np.array([value]), levels.unsure, np.array([True]))[0])
+
+
 def test_found_once_more_a_level_stands_where_rows_have_told() -> None:
     """What is found then is of rows with parameters that fit them best, which may stand far off."""
     levels = Levels(1)
-    levels.begin(0, Wander(0.3, 0.3, 5.5, 0.5, 1.2, 1.0), 5.0, 10)
-    assert levels.state()[4] == pytest.approx([0.5])
-    for value in (0.2, 0.4):
+    stood = levels.begin(0, Wander(0.3, 0.3, 5.5, 0.5, 1.2, 1.0, 1.2), 0.0, 5.0, 10)
+    assert stood == 5.5
+    for time, value in enumerate((0.2, 0.4)):
         levels.ahead(alarmed=False)
-        levels.learn(np.array([value]), np.array([True]))
-    (stood,), (variance,) = levels.state()[4:6]
-    levels.begin(0, Wander(0.1, 0.2, -9.0, 0.0, 1.0, 1.0), 5.1, 20)
-    (level,), (sure,) = levels.state()[4:6]
-    assert 5.1 + level == pytest.approx(5.0 + stood) and sure == variance
-    levels.begin(0, Wander(0.1, 0.2, -9.0, 7.0, 1.0, 1.0), 5.1, 40)
-    assert levels.state()[5] == [7.0]  # as little as is known of so many rows
+        stood += _moved(levels, time, value)
+    (sure,) = levels.state()[3]
+    assert levels.begin(0, Wander(0.1, 0.2, -9.0, 0.0, 1.0, 1.0, 1.0), stood, 5.1, 20) == stood
+    assert levels.state()[3] == [sure]
+    assert levels.begin(0, Wander(0.1, 0.2, -9.0, 7.0, 1.0, 1.0, 1.0), stood, 5.1, 40) == stood
+    assert levels.state()[3] == [7.0]  # as little as is known of so many rows
+    assert levels.begin(0, NONE, stood, 5.2, 60) == 5.2  # no walk: the mean
 
 
 def _verdicts(
