@@ -29,8 +29,8 @@ class Detection:
 
     A fault is over once it is twenty times as probable that the residuals which have fired, all
     together, are those of a healthy machine as that each goes on as it has been while it was out,
-    normal with that mean and deviation (Wald, 1945): two rows for a large fault, some more for a
-    small one. A row in which one is as far out as an alarm takes speaks against that, however it
+    normal with that mean and deviation (Wald, 1945), and more probable of each: two rows for a
+    large fault, some more for a small one. A row in which one is as far out as an alarm takes speaks against that, however it
     was before: it may swing. A fault that comes and goes is not told each time: what comes back
     soon has to be away for twice as long the next time. Nor does a row tell in which the fault that
     explains all would not show, as where it acts in a part of a motion only; when nothing is out
@@ -57,7 +57,6 @@ class Detection:
         self._sum = np.zeros((6, len(self._names)))
         self._held = np.zeros((6, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
-        self._together = 0.0  # the same of all that have fired
         self._quiet = 0  # rows that nothing was out in
 
     @property
@@ -129,7 +128,7 @@ class Detection:
 
     def reconsider(self) -> None:
         """What quiet rows have told of the end of a fault was told without knowing the fault."""
-        self._healthy[:] = self._together = 0.0
+        self._healthy[:] = 0.0
         self._quiet = 0
 
     def over(
@@ -159,10 +158,9 @@ class Detection:
         self._sum += np.where(out, self._held, 0.0)
         self._held[:, out] = 0.0
         quiet = bool((row.valid & self.fired)[self.fired].all())
-        together = float(more.sum())
-        self._quiet = 0 if together < 0.0 else self._quiet + quiet
-        self._together = max(self._together + together, 0.0)
-        enough = self._together > _OVER
+        own = self._healthy[self.fired]
+        self._quiet = 0 if (seen & out).any() else self._quiet + quiet
+        enough = bool(own.sum() > _OVER and (own > 0.0).all())
         return (enough and self._quiet >= self._needed) or self._quiet >= _PAUSE
 
     def _more(self, excess: Array, memory: Array) -> Array:
@@ -181,7 +179,7 @@ class Detection:
         self.fired = np.zeros_like(self.fired)
         self.most[:] = 0.0
         self._cusum.restart()
-        self._sum[:] = self._held[:] = self._healthy[:] = self._together = 0.0
+        self._sum[:] = self._held[:] = self._healthy[:] = 0.0
         self._away, self._gone = 0, self._needed
 
     def state(self) -> dict[str, Any]:

@@ -368,8 +368,8 @@ class Learning:
             most = beside.foreseen(float(self.limits[k, 2]))
             most = max(most, least, float(self._least(sigma)[k]))
             self.limits[k, 0] = min(self.limits[k, 0], most)
-        whole = (path.less * found.sigma / sigma) ** 2 * found.memory
-        self.limits[k, 5] = max(whole, min(found.memory, 1.0))
+        memory = path.less**2 * found.memory * (found.sigma / sigma) ** 2 if sigma else 0.0
+        self.limits[k, 5] = max(memory, min(found.memory, 1.0))
         self.limits[k, 6] *= path.less
 
     def _further(self, k: int) -> float:

@@ -92,7 +92,7 @@ def test_a_large_fault_is_over_with_two_quiet_rows_and_a_small_one_later() -> No
     for size in (20.0, 4.0, 1.5):
         detection = Detection(["r1", "r2"], 3)
         _alarm(detection, size)
-        assert not any(detection.over(_row(0.0, 0.0, valid=(False, True)), _LIMITS)
+        assert not any(detection.over(_row(0.0, 0.0, valid=(False, False)), _LIMITS)
                        for _ in range(30)), "what cannot be seen tells nothing"  # fmt: skip
         rows[size] = _quiet(detection, 0.3)
     assert rows[20.0] == 2
