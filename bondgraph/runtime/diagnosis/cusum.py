@@ -35,7 +35,7 @@ class Cusum:
     stretch s is seen in the peaks between two zeros (Pickands, 1975: an excess over a level is
     exponential). Heights are s times what they are for normal rows then, and above every peak.
 
-    `limits` have the columns of `Limit`, (residuals, 14). A sum climbs no higher than twice its
+    `limits` have the columns of `Limit`. A sum climbs no higher than twice its
     height, so that an alarm ends soon; of a machine that is known to be `healthy` as high as it is.
     """
 

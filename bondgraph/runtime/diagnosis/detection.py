@@ -25,16 +25,16 @@ class Detection:
 
     `fired` says which have, `most` by how much of its threshold each was out at most, of the last
     samples while none has fired; `alarms` counts them. The sample test fires after `least` samples
-    in a row. `limits` have the columns of `Limit`, (residuals, 14).
+    in a row. `limits` have the columns of `Limit`.
 
     A fault is over once it is twenty times as probable that the residuals which have fired, all
     together, are those of a healthy machine as that each goes on as it has been while it was out,
     normal with that mean and deviation (Wald, 1945), and more probable of each: two rows for a
-    large fault, some more for a small one. A row in which one is as far out as an alarm takes speaks against that, however it
-    was before: it may swing. A fault that comes and goes is not told each time: what comes back
-    soon has to be away for twice as long the next time. Nor does a row tell in which the fault that
-    explains all would not show, as where it acts in a part of a motion only; when nothing is out
-    for long, it is over nevertheless.
+    large fault, some more for a small one. A row in which one is as far out as an alarm takes
+    speaks against that, however it was before: it may swing. A fault that comes and goes is not
+    told each time: what comes back soon has to be away for twice as long the next time. Nor does a
+    row tell in which the fault that explains all would not show, as where it acts in a part of a
+    motion only; when nothing is out for long, it is over nevertheless.
     """
 
     def __init__(self, residuals: Sequence[str], least: int, learns: bool = True) -> None:
