@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence, Set
 from itertools import accumulate, groupby, takewhile
 from math import inf
+from typing import TypeAlias
 
 from bondgraph.text.tuples import NamedTuple
 
@@ -56,14 +57,9 @@ class _Cut(NamedTuple):
     call: int
 
 
-class _Way(NamedTuple):
-    """How a stretch to the end begins: with what stands up to `end`, a function if that is more
-    than one statement. What all its cuts cost, and the lines that are left behind the first.
-    """
-
-    cost: float
-    end: int
-    left: int
+#: How a stretch to the end begins: what all its cuts cost; what it begins with stands up to here,
+#: a function if that is more than one statement; the lines that are left behind that.
+_Way: TypeAlias = tuple[float, int, int]
 
 
 def pieces(steps: Sequence[Step], room: int, most: int) -> tuple[int | Piece, ...]:
@@ -199,18 +195,22 @@ def _chosen(
     count = len(steps)
     starts = [list(cuts) for cuts in _cuts(steps, most, after)]
     fewest = _fewest(steps, starts)
-    ways: list[dict[int, _Way]] = [{} for _ in range(count)] + [{0: _Way(0.0, count, 0)}]
+    ways: list[dict[int, _Way]] = [{} for _ in range(count)] + [{0: (0.0, count, 0)}]
     for at in range(count - 1, -1, -1):
         lines, price = steps[at].lines, _LINE * steps[at].lines
-        found = {left + lines: _Way(way.cost + price, at + 1, left)
-                 for left, way in ways[at + 1].items()}  # fmt: skip
+        found = {left + lines: (cost + price, at + 1, left)
+                 for left, (cost, _, _) in ways[at + 1].items()}  # fmt: skip
         for end, own, call in starts[at]:
-            for left, way in ways[end].items():
-                cost, known = own + way.cost, found.get(left + call)
-                if known is None or cost < known.cost:
-                    found[left + call] = _Way(cost, end, left)
+            behind = ways[end]
+            fit = room - fewest[at] - call
+            for left in behind:  # the fewest first: of what does not fit no more can be of use
+                cost, known = own + behind[left][0], found.get(left + call)
+                if known is None or cost < known[0]:
+                    found[left + call] = (cost, end, left)
+                if left > fit:
+                    break
         ways[at] = _worthwhile(found, room - fewest[at])
-    left, at = min(ways[0].items(), key=lambda item: (item[0] > room, item[1].cost))[0], 0
+    left, at = min(ways[0].items(), key=lambda item: (item[0] > room, item[1][0]))[0], 0
     while at < count:
         _, end, left = ways[at][left]
         if end > at + 1:
@@ -233,9 +233,12 @@ def _worthwhile(ways: Mapping[int, _Way], room: int) -> dict[int, _Way]:
     found: dict[int, _Way] = {}
     cheapest = inf
     for left in sorted(ways):
-        if ways[left].cost < cheapest and (left <= room or not found):
-            found[left] = ways[left]
-            cheapest = ways[left].cost
+        way = ways[left]
+        if way[0] < cheapest and (left <= room or not found):
+            found[left] = way
+            cheapest = way[0]
+        if left > room:
+            break
     return found
 
 

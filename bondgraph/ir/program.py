@@ -406,6 +406,12 @@ class Program(NamedTuple):
     openings: tuple[Opening, ...] = ()  # of the residuals that start anew where switches turn
     delayed: tuple[Delayed, ...] = ()  # past values of the known signals
 
+    def __hash__(self) -> int:
+        """Of what tells programs apart: what is cached by a program is asked for again and again,
+        and to hash all statements takes as long as to write some of them.
+        """
+        return hash((self.name, self.digest, len(self.exact), len(self.step), len(self.configure)))
+
     @property
     def read(self) -> tuple[Known, ...]:
         """The known signals and their past values."""

@@ -53,7 +53,7 @@ def nodes(values: Iterable[Expression | Condition]) -> Iterator[Expression | Con
     while stack:
         node = stack.pop()
         yield node
-        stack.extend(operands(node)[::-1])
+        stack += _OPERANDS[type(node)](node)[::-1]
 
 
 def references(value: tuple[object, ...]) -> list[Ref]:

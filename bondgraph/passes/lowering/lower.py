@@ -14,6 +14,7 @@ from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
     Assign,
     Assignment,
+    Const,
     Dropped,
     Expression,
     Field,
@@ -388,11 +389,14 @@ def _plain(value: object) -> object:
     """The value without places, which name files of the machine."""
     if not isinstance(value, tuple):
         return value
-    if type(value) is tuple:
+    kind = type(value)
+    if kind is Ref or kind is Const:
+        return (kind.__name__, *value)
+    if kind is tuple:
         return tuple([_plain(v) if isinstance(v, tuple) else v for v in value])
     kept = [
         _plain(own) if isinstance(own, tuple) else own
         for name, own in zip(value._fields, value, strict=True)  # type: ignore[attr-defined]
         if name != "origin" and (own or name not in _ADDED)
     ]
-    return (type(value).__name__, *kept)
+    return (kind.__name__, *kept)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, TypeVar
 
-from bondgraph.ir.program import Assignment, Branch, Function, Program
+from bondgraph.ir.program import Assignment, Branch, Const, Function, Program, Ref
 
 _NEAR = {"tanh": "near_tanh"}
 
@@ -30,7 +30,7 @@ def _all(statements: Iterable[Assignment]) -> tuple[Assignment, ...]:
 
 def _near(value: _T) -> _T:
     """An expression, a condition or a part of one with other names of functions."""
-    if not isinstance(value, tuple):
+    if not isinstance(value, tuple) or isinstance(value, (Ref, Const)):
         return value
     node: Any = value
     parts = [_near(part) for part in node]
