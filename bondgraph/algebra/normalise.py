@@ -111,6 +111,9 @@ def static(node: Expr) -> bool:
 def _at_rest(pool: Pool, expr: Expr) -> Expr:
     """The expression with the derivatives of constants set to zero."""
     memo: dict[Expr, bool] = {}
+    constant(expr, memo)
+    if not any(node.op is Op.DER and memo[node.args[0]] for node in memo):
+        return expr  # as nearly all are
 
     def stilled(node: Expr, args: tuple[Expr, ...]) -> Expr | None:
         return pool.zero if node.op is Op.DER and constant(args[0], memo) else None

@@ -33,10 +33,11 @@ def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
         if step.how == "loop":
             top.update(dict.fromkeys(divisors([step.closed])))
         elif equation.kind == "balance" or kind in ("TF", "GY"):
-            written = {*divisors(topological([equation.zero]))}  # no work of the elimination
             nodes = topological([step.value], stop=seen.__contains__)
             own = divisors(n for n in nodes if n not in seen)
-            inside.update(dict.fromkeys(d for d in own if d not in written))
+            if own:  # what is written is no work of the elimination
+                written = {*divisors(topological([equation.zero]))}
+                inside.update(dict.fromkeys(d for d in own if d not in written))
             seen.update(nodes)
     values = {s.variable: s.closed for s in steps}
     return _moving([*top, *pool.substitute(inside, values)])
