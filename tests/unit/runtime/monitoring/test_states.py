@@ -66,8 +66,10 @@ def test_states_follow_each_other_sample_by_sample(tmp_path: Path) -> None:
         *["warming up"] * 2, *["blind"] * 2, *["healthy"] * 2, *["alarm"] * 11, *["healthy"] * 3
     ]  # fmt: skip
     assert [r["active"] for r in rows] == ["0"] * 6 + ["1"] * 11 + ["0"] * 3
+    # above its threshold of 5 while r2 is in alarm, and from when it is told itself
+    assert [r["r1"] for r in rows[4:12]] == ["4.0", "5.0", "6.0", "7.0", "8.0", "9.0", "0.0", "1.0"]
     assert [r["r1_state"] for r in rows[4:]] == [
-        *["healthy"] * 8, *["alarm"] * 5, *["healthy"] * 3
+        *["healthy"] * 2, *["alarm"] * 4, *["healthy"] * 2, *["alarm"] * 5, *["healthy"] * 3
     ]  # fmt: skip
     assert [r["class"] for r in rows] == [""] * 12 + ["a or b"] * 5 + [""] * 3
     assert rows[1]["r1"] == "" and rows[3]["r1"] == "3.0" and rows[3]["r1_threshold"] == ""
