@@ -60,7 +60,7 @@ def parsed(words: list[str]) -> SimpleNamespace | Namespace:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0 (done), 1 (wrong model) or 2 (wrong usage)."""
     words = list(sys.argv[1:] if argv is None else argv)
-    if argv is None and words[:1] == ["compile"]:  # a process that ends with it
+    if argv is None and words[:1] == ["compile"]:  # what it makes is kept until it ends
         gc.disable()
     if argv is None and not sys.warnoptions:  # numbers beyond all bounds are told as such
         warnings.filterwarnings("ignore", category=RuntimeWarning)

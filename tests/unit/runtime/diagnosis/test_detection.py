@@ -95,6 +95,10 @@ def test_a_large_fault_is_over_with_two_quiet_rows_and_a_small_one_later() -> No
         assert not any(detection.over(_row(0.0, 0.0, valid=(False, False)), _LIMITS)
                        for _ in range(30)), "what cannot be seen tells nothing"  # fmt: skip
         rows[size] = _quiet(detection, 0.3)
+        other = Detection(["r1", "r2"], 3)
+        _alarm(other, size)
+        assert not any(other.over(_row(0.0, 0.0, valid=(False, True)), _LIMITS)
+                       for _ in range(30)), "not while one is not seen"  # fmt: skip
     assert rows[20.0] == 2
     assert rows[20.0] <= rows[4.0] < rows[1.5] <= 25
 
