@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 _FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
 _CLIMB = 2.0  # times the fastest of these, for as long as that is clearly the best
-_CLEARLY = 0.1  # of the logarithm of what shows: slower filters are quieter, and rows fewer
+_CLEARLY = 0.1  # of the logarithm of what shows: for less none leaves the usual filter
 _MORE = 1.2  # times the change that shows, above which that without a jump is told beside it
 _LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
 WINDOW = 40.0  # time constants of the default filter in which a fault has to show
@@ -102,7 +102,7 @@ def run(args: Namespace) -> int:
                     wanted += [w for w in faster if w > wanted[-1]]
     except ValueError as error:
         raise Trouble(str(error)) from error
-    best = min(found, key=lambda t: (_score(t, found), -t.tuning.bandwidth))
+    best = _best(found, usual)
     write_whole(args.output, best.tuning.to_json())
     return console.told(
         args.json,
@@ -170,17 +170,28 @@ def _climbs(found: list[Tuned]) -> bool:
     return bool(slower) and fastest < min(slower) - _CLEARLY
 
 
+def _best(found: list[Tuned], usual: float) -> Tuned:
+    """Of the filters that show nearly as much as the best one, the one nearest to the usual.
+
+    Sums of rows make most of them see the same. What a healthy machine does that its logs have no
+    example of makes false alarms with a fast one, and with a slow one every alarm ends late.
+    """
+    enough = min(_score(t, found) for t in found) + _CLEARLY
+    near = [t for t in found if _score(t, found) <= enough]
+    return min(near, key=lambda t: abs(math.log(t.tuning.bandwidth / usual)))
+
+
 def _score(tuned: Tuned, found: list[Tuned]) -> float:
     """The geometric mean of what shows, next to what is usual, of all that shows with any filter.
 
-    What is below a tenth is small enough, and above ten times it is of no use: no filter gets
-    credit for more.
+    That is over the times since a fault began, too: what shows late counts less. What is below a
+    tenth is small enough, and above ten times it is of no use: no filter gets credit for more.
     """
     logs = []
     for k, shown in enumerate(tuned.shown):
         if any(t.shown[k].size is not None for t in found):
-            share = math.inf if shown.size is None else shown.size / shown.hypothesis.usual
-            logs.append(math.log(min(max(share, 0.1), 10.0)))
+            shares = [min(max(size / shown.hypothesis.usual, 0.1), 10.0) for size in shown.course]
+            logs.append(sum(map(math.log, shares)) / len(shares))
     return sum(logs) / len(logs) if logs else 0.0
 
 
@@ -246,7 +257,7 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
         ]
     if len(found) > 1:
         tried = [f"{t.tuning.bandwidth:g} ({math.exp(_score(t, found)):.2g})" for t in found]
-        what = "Filters tried, rad/s (what shows, next to a usual change)"
+        what = "Filters tried, rad/s (what shows while a fault lasts, next to a usual change)"
         lines += [f"{what}: {', '.join(tried)}", ""]
     limits: list[tuple[str, ...]] = [("residual", "noise", "fires above", "sums above")]
     for name, x in best.tuning.limits.items():

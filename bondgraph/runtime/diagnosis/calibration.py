@@ -27,7 +27,7 @@ from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weig
 from bondgraph.runtime.diagnosis.standing import Levels, apart
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
@@ -40,6 +40,7 @@ _CHUNK = 5000  # samples at a time
 _APART = 16  # rows without a value between two logs, more than noise is taken to remember
 _SURE = 0.9  # share of the windows in which the smallest change shows
 _LEAST = 0.1  # that in which a change may show
+_TIMES = 20  # in a window, at which it is asked what shows so far
 
 
 class Shown(NamedTuple):
@@ -48,7 +49,9 @@ class Shown(NamedTuple):
     `size` in the unit of the hypothesis (None: nothing moves), in nine windows of ten; `delay` is
     the median time in s until it shows. `residual` is the one that shows it first most often. A
     storage that becomes another one keeps what it holds, and what is measured of it jumps; where
-    nothing jumps, as of what comes on slowly, it takes a change of `smooth`.
+    nothing jumps, as of what comes on slowly, it takes a change of `smooth`. What shows at so many
+    times of the window, by a sample or by a sum of rows, is its `course`, infinite before anything
+    does.
     """
 
     hypothesis: Hypothesis
@@ -56,6 +59,7 @@ class Shown(NamedTuple):
     delay: float | None
     residual: str
     smooth: float | None = None
+    course: tuple[float, ...] = (math.inf,) * _TIMES
 
 
 class Tuned(NamedTuple):
@@ -132,8 +136,9 @@ class _Noise(NamedTuple):
 
 
 class _Seen(NamedTuple):
-    """Of one window: the smallest change that shows, when, and in which residual; and for each
-    residual the one that may show in it, and the one that does with a threshold that never moves.
+    """Of one window: the smallest change that shows, when, and in which residual; for each residual
+    the one that may show in it, and the one that does with a threshold that never moves; and what
+    shows so far, by sums too, in the `course` of the window.
     """
 
     size: float
@@ -141,6 +146,7 @@ class _Seen(NamedTuple):
     residual: int
     least: Array
     sure: Array
+    course: Array
 
 
 class _Work:
@@ -282,40 +288,63 @@ class _Work:
         length = max(2, round(window / self.engine.sample_time))
         lasting = [self.all[k] for k, smooth in self.ways if smooth]
         behind = self.engine.configured(bounds=False)  # where it was a warm-up ago
-        top = np.array([limit.kappa * limit.sigma for limit in own])
         whole.run(samples[:start])
         for begin in range(start, len(samples) - length + 1, length):
             part = samples[begin : begin + length]
             bank = Bank(copied(engine), self.all, self.nominal, samples[begin - 1])
-            slopes = np.abs(bank.run(part))
+            slopes = bank.run(part)
             if lasting:
                 past = Bank(copied(behind), lasting, self.nominal)
                 past.onset(past.run(samples[begin - start : begin], [start - 1])[0])
-                slopes = np.concatenate([slopes, np.abs(past.run(part))], axis=1)
+                slopes = np.concatenate([slopes, past.run(part)], axis=1)
                 behind.run(samples[begin - start : begin - start + length])
             batch, _, _ = whole.run(part)
-            yield [self._seen(self.all[k], slopes[:, at], batch, top, rigid)
+            yield [self._seen(self.all[k], slopes[:, at], batch, own, rigid)
                    for at, (k, _) in enumerate(self.ways)]  # fmt: skip
 
     def _seen(
-        self, hypothesis: Hypothesis, slopes: Array, batch: Batch, top: Array, rigid: Array
+        self, hypothesis: Hypothesis, moved: Array, batch: Batch, own: Sequence[Limit],
+        rigid: Array,
     ) -> _Seen:
+        top = np.array([limit.kappa * limit.sigma for limit in own])
+        slopes = np.abs(moved)
         share = self.model.tolerances.get(hypothesis.fault, 0.0)
-        own = share * abs(self.nominal.get(hypothesis.fault, 0.0)) * slopes
-        moved = (slopes > 0) & batch.valid & np.isfinite(top)
-
-        def size(need: Array) -> Array:
-            return np.divide(need, slopes, out=np.full_like(slopes, math.inf), where=moved)
-
-        least = size(2.0 * batch.bound - np.minimum(own, batch.bound) + top)
+        tolerated = share * abs(self.nominal.get(hypothesis.fault, 0.0)) * slopes
+        room = 2.0 * batch.bound - np.minimum(tolerated, batch.bound)
+        shows = batch.valid & np.isfinite(top)
+        least = _size(room + top, slopes, shows)
         at, residual = np.unravel_index(int(np.argmin(least)), least.shape)
+        course = least.min(axis=1)
+        rows = slice(self.every - 1, len(course), self.every)
+        sums = self._sums(np.where(shows, moved, 0.0), room, own)
+        course[rows] = np.minimum(course[rows], sums)
+        times = np.ceil(np.arange(1, _TIMES + 1) * len(course) / _TIMES).astype(int) - 1
         return _Seen(
             float(least[at, residual]),
             (int(at) + 1) * self.engine.sample_time,
             int(residual),
             least.min(axis=0),
-            size(np.broadcast_to(2.0 * rigid + top, slopes.shape)).min(axis=0),
+            _size(np.broadcast_to(2.0 * rigid + top, slopes.shape), slopes, shows).min(axis=0),
+            np.minimum.accumulate(course)[times],
         )
+
+    def _sums(self, moved: Array, room: Array, own: Sequence[Limit]) -> Array:
+        """With each row, the smallest change by which a sum of them is too high (see `Cusum`)."""
+        unit = np.array([x.unit or x.sigma * math.sqrt(x.memory) for x in own])
+        height = np.array([x.height for x in own])
+        count = len(moved) // self.every
+        rows, rooms = (
+            x[: count * self.every].reshape(count, self.every, len(own)).mean(axis=1)
+            for x in (moved, room)
+        )
+        need = height * unit + np.cumsum(rooms + 0.5 * unit, axis=0)
+        slopes = np.abs(np.cumsum(rows, axis=0))
+        return _size(need, slopes, np.isfinite(need)).min(axis=1, initial=math.inf)
+
+
+def _size(need: Array, slopes: Array, shows: Mask) -> Array:
+    """The change that moves residuals as far as needed; infinite where it cannot show."""
+    return np.divide(need, slopes, out=np.full_like(slopes, math.inf), where=shows & (slopes > 0))
 
 
 class _Whole:
@@ -507,13 +536,15 @@ def _by_fault(
 
 
 def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[str]) -> Shown:
-    sizes = sorted(s.size for s in found)
-    if not sizes:
+    if not found:
         return Shown(hypothesis, None, None, "")
-    size = sizes[min(len(sizes) - 1, math.floor(_SURE * len(sizes)))]
+    at = min(len(found) - 1, math.floor(_SURE * len(found)))
+    size = sorted(s.size for s in found)[at]
     seen = [s for s in found if math.isfinite(s.size)]
     if not math.isfinite(size) or not seen:
         return Shown(hypothesis, None, None, "")
     delay = float(np.median([s.delay for s in seen]))
     often = np.bincount([s.residual for s in seen])
-    return Shown(hypothesis, size, delay, residuals[int(np.argmax(often))])
+    course = np.sort([s.course for s in found], axis=0)[at]
+    where = residuals[int(np.argmax(often))]
+    return Shown(hypothesis, size, delay, where, course=tuple(course.tolist()))

@@ -51,6 +51,12 @@ def tuned() -> Tuned:
     return tune(engine, model().diagnosis_model, logs, "digest", 2.0, _WINDOW)
 
 
+def _seen(*sizes: float) -> _Seen:
+    """Of a window in which each residual shows such a size, twice that at half of the time."""
+    least = np.array(sizes)
+    return _Seen(min(sizes), 1.0, 0, least, least, np.array([2.0, 1.0]) * min(sizes))
+
+
 def _sigma() -> float:
     """Of white noise behind the lag."""
     pole = math.exp(-tuned().tuning.bandwidth * _STEP)
@@ -115,6 +121,27 @@ def test_the_smallest_fault_is_the_limit_over_the_slope_at_the_end_of_a_window()
         assert size == pytest.approx(top / slope, rel=5e-3), key
         assert delay == pytest.approx(_WINDOW, rel=0.1), key
         assert found[key].residual == "r1"
+
+
+def test_what_shows_so_far_is_what_a_sample_tells_or_a_sum_of_rows() -> None:
+    """Behind one lag an offset of U, a ramp from the sample before on and a step from then on,
+    comes as 1 - exp(-b t) but for that ramp; a sum of n averages of it passes its height with the
+    mean excess of height/n + 1/2 deviations."""
+    limit, pole = tuned().tuning.limits["r1"], tuned().tuning.bandwidth
+    every = math.ceil(3.0 / pole / _STEP)
+    count = round(_WINDOW / _STEP)
+    ramp = (1.0 - math.exp(-pole * _STEP)) / (pole * _STEP)
+    slopes = 1.0 - ramp * np.exp(-pole * _STEP * np.arange(count))
+    samples = limit.kappa * limit.sigma / slopes
+    sizes = samples.copy()
+    for n in range(1, count // every + 1):
+        reached = slopes[: n * every].sum() / every
+        by_sums = limit.unit * (limit.height + 0.5 * n) / reached
+        sizes[n * every - 1] = min(sizes[n * every - 1], by_sums)
+    course = next(s.course for s in tuned().shown if s.hypothesis[:2] == ("U", "offset"))
+    ends = count * np.arange(1, len(course) + 1) // len(course) - 1
+    assert list(course) == pytest.approx(np.minimum.accumulate(sizes)[ends].tolist(), rel=1e-4)
+    assert course[-1] < 0.9 * samples.min()  # here a sum tells most
 
 
 def test_from_which_size_on_each_residual_shows_a_fault() -> None:
@@ -184,7 +211,7 @@ def test_a_way_that_does_not_move_a_residual_is_not_ruled_out_by_its_silence() -
     ways = [Hypothesis("i", kind, "A", 1.0, False) for kind in ("offset", "gain", "drift")]
     inf = math.inf
     sizes = ([2.0, 6.0], [5.0, inf], [inf, inf])
-    windows = [[_Seen(min(s), 1.0, 0, np.array(s), np.array(s))] for s in sizes]
+    windows = [[_seen(*s)] for s in sizes]
     found = _by_fault(ways, windows, ["r1", "r2"])
     assert found == {"r1": {"i": ShownSize(1.0, 1.0)}, "r2": {"i": ShownSize(3.0, inf)}}
 
@@ -355,11 +382,12 @@ def test_samples_that_are_missing_do_not_count_as_noise() -> None:
     ],
 )
 def test_what_is_sure_to_show_shows_in_nine_windows_of_ten(sizes: list[float], size: float) -> None:
-    windows = [_Seen(s, 0.1 * s, 0, np.array([s]), np.array([s])) for s in sizes]
+    windows = [_seen(s) for s in sizes]
     shown = _shown(Hypothesis("R", "value", "", 0.1, False), windows, ["r1"])
     assert shown.size == size
     assert sum(s <= size for s in sizes) >= 0.9 * len(sizes)
     assert shown.residual == "r1"
+    assert shown.course == (2.0 * size, size)
 
 
 def test_logs_that_are_too_short_teach_nothing() -> None:

@@ -1,0 +1,35 @@
+"""Which filter `tune` takes of those that it tried."""
+
+from __future__ import annotations
+
+import pytest
+
+from bondgraph.cli.tune import _best, _score
+from bondgraph.runtime.diagnosis.calibration import Shown, Tuned
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.tuning import Tuning
+
+
+def _tuned(bandwidth: float, *course: float) -> Tuned:
+    """With a filter a change of so many per cent of one parameter shows in the course of time."""
+    way = Hypothesis("R", "value", "", 1.0, False)
+    shown = Shown(way, course[-1], 1.0, "r1", course=course)
+    return Tuned(Tuning("", 100.0, bandwidth, 1.0, 60.0, {}, {}), (shown,), 1.0)
+
+
+def test_a_tenth_more_that_shows_is_not_worth_another_filter() -> None:
+    found = [_tuned(1.0, 0.50), _tuned(2.0, 0.44), _tuned(4.0, 0.41)]
+    assert [_best(found, usual).tuning.bandwidth for usual in (1.0, 2.0, 4.0)] == [2.0, 2.0, 4.0]
+    assert _best(found, 100.0) is found[2]
+
+
+def test_what_shows_late_counts_less() -> None:
+    slow, fast = _tuned(1.0, 10.0, 0.2), _tuned(4.0, 0.4, 0.3)
+    assert _score(fast, [slow, fast]) < _score(slow, [slow, fast])
+    assert _best([slow, fast], 1.0) is fast
+
+
+@pytest.mark.parametrize(("worse", "better"), [(0.1, 0.01), (1000.0, 10.0)])
+def test_no_filter_gets_credit_for_more_than_what_is_of_use(worse: float, better: float) -> None:
+    found = [_tuned(1.0, worse), _tuned(2.0, better)]
+    assert _score(found[0], found) == _score(found[1], found)
