@@ -339,7 +339,7 @@ class _Work:
         )
         need = height * unit + np.cumsum(rooms + 0.5 * unit, axis=0)
         slopes = np.abs(np.cumsum(rows, axis=0))
-        return _size(need, slopes, np.isfinite(need)).min(axis=1, initial=math.inf)
+        return np.asarray(_size(need, slopes, np.isfinite(need)).min(axis=1, initial=math.inf))
 
 
 def _size(need: Array, slopes: Array, shows: Mask) -> Array:
