@@ -9,15 +9,13 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.diagnosis.cusum import Cusum
-from bondgraph.runtime.diagnosis.rows import Part, Row
+from bondgraph.runtime.diagnosis.rows import PAUSE, Part, Row, away
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
 _OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
-_PAUSE = 32  # rows: what comes back later has been away
 _QUIET = 2  # rows, at least: what moves through zero is quiet in one
 _LEAST = 0.5  # deviations of averages: a fault that is smaller is not seen
-_SOON = 4  # times the rows that had to be quiet: what comes back within them has not been away
 
 
 class Detection:
@@ -32,20 +30,23 @@ class Detection:
     normal with that mean and deviation (Wald, 1945), and more probable of each: two rows for a
     large fault, some more for a small one. A row in which one is as far out as an alarm takes
     speaks against that, however it was before: it may swing. A fault that comes and goes is not
-    told each time: what comes back soon has to be away for twice as long the next time. Nor does a
+    told each time: what comes back soon has to be away for twice as long the next time, for so many
+    rows at most as a `pause` has. Nor does a
     row tell in which the fault that explains all would not show, as where it acts in a part of a
     motion only; when nothing is out for long, it is over nevertheless.
     """
 
-    def __init__(self, residuals: Sequence[str], least: int, learns: bool = True) -> None:
+    def __init__(
+        self, residuals: Sequence[str], least: int, learns: bool = True, pause: int = PAUSE
+    ) -> None:
         """How high sums climb while all is well is learned where it `learns`."""
-        self._names, self._least = tuple(residuals), least
+        self._names, self._least, self._pause = tuple(residuals), least, pause
         self._cusum = Cusum(len(residuals), learns)
         self.fired: Mask = np.zeros(len(residuals), dtype=np.bool_)
         self.most = np.zeros(len(residuals))
         self.alarms = 0
         self._needed = _QUIET  # rows that have to be quiet
-        self._away = _PAUSE + 1  # rows since a fault was over
+        self._away = PAUSE + 1  # rows since a fault was over
         self._gone = _QUIET  # rows that it had to be quiet for then
         self.restart()
 
@@ -91,7 +92,7 @@ class Detection:
     def row(self, row: Row, limits: Array) -> Mask:
         """Which fire by what is too much in rows (see `Cusum`)."""
         if not self.alarmed:
-            self._away = min(self._away + 1, _PAUSE + 1)
+            self._away = min(self._away + 1, PAUSE + 1)
         return np.asarray(self._cusum.add(row, limits) & ~self.fired)
 
     def onset(self, limits: Array) -> int:
@@ -108,8 +109,7 @@ class Detection:
         first = not self.alarmed
         if first:
             gap = self._away + self._gone  # rows without it
-            back = gap <= min(_SOON * self._gone, _PAUSE)
-            self._needed = min(2 * gap, _PAUSE) if back else _QUIET
+            self._needed = away(gap, self._gone, _QUIET, self._pause)
         self.fired = self.fired | fresh
         self.reconsider()
         self.alarms += first
@@ -161,7 +161,7 @@ class Detection:
         own = self._healthy[self.fired]
         self._quiet = 0 if (seen & out).any() else self._quiet + quiet
         enough = bool(own.sum() > _OVER and (own > 0.0).all())
-        return (enough and self._quiet >= self._needed) or self._quiet >= _PAUSE
+        return (enough and self._quiet >= self._needed) or self._quiet >= PAUSE
 
     def _more(self, excess: Array, memory: Array) -> Array:
         """By how much a row makes it more probable that the fault of each residual is gone.
@@ -194,7 +194,7 @@ class Detection:
 
     def resumed(self, state: dict[str, Any]) -> Detection:
         """The same in a state; raises KeyError, TypeError or ValueError for one of another kind."""
-        other = Detection(self._names, self._least)
+        other = Detection(self._names, self._least, pause=self._pause)
         other.fired = array(state["fired"], self.fired.shape) != 0.0
         other.most = array(state["most"], self.most.shape)
         other._cusum = self._cusum.resumed(state)

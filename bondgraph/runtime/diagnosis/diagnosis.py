@@ -28,6 +28,7 @@ from bondgraph.runtime.diagnosis.rows import (
     all_of,
     averaged,
     beside,
+    pause,
     steady,
     to_row_ends,
     together,
@@ -86,7 +87,8 @@ class Diagnosis:
             self._limits = np.array(limits(tuning.limits, engine.residuals), dtype=float)
             self._levels = Levels.tuned(self._limits)
         learns = tuning is None
-        self._detection = Detection(engine.residuals, max(3, self._every // 10), learns)
+        most = pause(self._every * engine.sample_time)
+        self._detection = Detection(engine.residuals, max(3, self._every // 10), learns, most)
         model.doubles()  # found now: an alarm cannot wait for it
         self._judge = Judge(engine, model)
         checked = [(k.path, at) for at, k in enumerate(engine.signals)
@@ -96,7 +98,7 @@ class Diagnosis:
         encoders = {k.path: at for at, k in enumerate(engine.signals)
                     if k.path in model.faults and k.counts is not None}  # fmt: skip
         modes = [at for at, k in enumerate(engine.signals) if k.kind == "mode"]
-        self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders, modes)
+        self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders, modes, most)
         self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()
 

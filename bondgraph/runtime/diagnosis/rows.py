@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -14,6 +15,31 @@ _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is o
 _SLOPE_ERROR = 0.02  # of the residual: what its sensitivities are off by
 _DOUBTED = 0.5  # of the doubt: its deviation
 CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
+PAUSE = 32  #: rows: what comes back later has been away
+_LEAST, _CALM = 4, 10.0  # of these rows at least, or s: no more lines are too many to read
+_SOON = 4  # times the rows that had to be quiet: what comes back within them has not been away
+
+
+def pause(seconds: float) -> int:
+    """How many rows of so many seconds what comes and goes has to be away at most to be over.
+
+    It is not told each time where that would be every few seconds; nor is it held for minutes.
+
+    >>> pause(0.15), pause(1.0), pause(15.0)
+    (32, 10, 4)
+    """
+    return max(_LEAST, min(PAUSE, math.ceil(_CALM / seconds)))
+
+
+def away(gap: int, needed: int, quiet: int, most: int) -> int:
+    """How many rows something has to be away that is back after a `gap`, when it `needed` so many.
+
+    Twice as many as it was away now, or only a few that are `quiet` if it had been away for long.
+
+    >>> away(3, 2, 2, most=32), away(20, 2, 2, most=32), away(20, 6, 2, most=32)
+    (6, 2, 32)
+    """
+    return min(2 * gap, most) if gap <= min(_SOON * needed, most) else quiet
 
 
 class Part(NamedTuple):

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.rows import PAUSE, away
 from bondgraph.runtime.diagnosis.standing_encoders import StandingEncoders
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
@@ -31,8 +32,6 @@ _CHANGES = 0.3  # share of the samples that differ from the last, in any row of 
 _STILL = 5.0  # times as long as it ever stood still
 _LEAST = 20  # samples that it has to stand still for
 _QUIET = 3  # rows after which it is as it was; a spike with the one behind it
-_SOON = 4  # times the rows that it had to be quiet: what comes back within them has not been away
-_PAUSE = 32  # rows that what comes and goes has to be away at most, twice as long as it ever was
 _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
 _SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
@@ -94,8 +93,9 @@ class SignalChecks:
     def __init__(
         self, names: Sequence[str], at: Sequence[int], sample_time: float,
         inputs: Container[str] = (), encoders: Mapping[str, int] = MappingProxyType({}),
-        modes: Sequence[int] = (),
+        modes: Sequence[int] = (), pause: int = PAUSE,
     ) -> None:  # fmt: skip
+        self._pause = pause
         self._encoders = StandingEncoders(encoders)
         self._names, self._at, self._step = tuple(names), list(at), sample_time
         self._inputs = inputs
@@ -115,7 +115,7 @@ class SignalChecks:
         self.active: dict[str, Unusual] = {}
         self._away: dict[str, int] = {}  # rows since it was unusual last
         self._needed: dict[str, int] = {}  # rows that it has to be away for
-        self._driven = _PAUSE  # rows since an input was as never before
+        self._driven = PAUSE  # rows since an input was as never before
         self.restart()
 
     def restart(self) -> None:
@@ -182,21 +182,21 @@ class SignalChecks:
         """What is new; what has been away for some rows is over."""
         fresh = [one for name, one in found.items() if name not in self.active]
         for one in fresh:
-            gone = self._away.get(one.signal, _PAUSE + 1)
+            gone = self._away.get(one.signal, PAUSE + 1)
             quiet = 1 if one.kind == "spike" else _QUIET
-            soon = min(_SOON * self._needed.get(one.signal, quiet), _PAUSE)
-            self._needed[one.signal] = min(2 * gone, _PAUSE) if gone <= soon else quiet
+            needed = self._needed.get(one.signal, quiet)
+            self._needed[one.signal] = away(gone, needed, quiet, self._pause)
             self.active[one.signal] = one
         for name in (*self._names, *self._encoders.names):
             shown = name in found or name in driven
-            self._away[name] = 0 if shown else self._away.get(name, _PAUSE) + 1
+            self._away[name] = 0 if shown else self._away.get(name, PAUSE) + 1
             if name in self.active and self._away[name] >= self._needed.get(name, _QUIET):
                 del self.active[name]
         return fresh
 
     def lately(self, name: str) -> bool:
         """Whether a signal is unusual or was so a few rows ago, an encoder since it is suspect."""
-        fresh = self._away.get(name, _PAUSE) < _AFTER
+        fresh = self._away.get(name, PAUSE) < _AFTER
         return name in self.active or fresh or name in self._encoders.stood
 
     def _matters(self, rough: Array, suspects: Collection[str]) -> Array:

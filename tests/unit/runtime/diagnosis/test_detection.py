@@ -129,6 +129,18 @@ def test_what_comes_back_soon_has_to_be_away_for_longer_the_next_time() -> None:
     assert _quiet(detection) == 2, "away for long: another fault"
 
 
+def test_what_comes_back_soon_is_held_for_no_more_rows_than_a_pause_has() -> None:
+    detection = Detection(["r1", "r2"], 3, pause=5)
+    needed = []
+    for _ in range(6):
+        _alarm(detection, 20.0)
+        needed.append(_quiet(detection))
+        for _ in range(2):
+            detection.row(_row(0.0, 0.0), _LIMITS)
+        detection = detection.resumed(json.loads(json.dumps(detection.state())))
+    assert max(needed) == 5 and needed[0] == 2, needed
+
+
 def test_rows_in_which_the_fault_would_not_show_do_not_tell_that_it_is_over() -> None:
     detection = Detection(["r1", "r2"], 3)
     _alarm(detection, 20.0)

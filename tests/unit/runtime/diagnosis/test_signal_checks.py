@@ -148,6 +148,18 @@ def test_what_comes_back_soon_is_not_told_each_time() -> None:
     assert {one.kind for one in told} == {"spike"} and len(told) <= 3
 
 
+@pytest.mark.parametrize("most", [2, 8])
+def test_what_comes_back_is_held_for_no_more_rows_than_a_pause_has(most: int) -> None:
+    """Spikes in one row of four, then none: with a pause of 8 rows they are one alarm."""
+    samples = _signals(8)
+    samples[2000:3200:104, 2] += 3.0
+    checks, told = SignalChecks(["y", "q", "T"], [0, 1, 2], _STEP, pause=most), 0
+    for row, k in enumerate(range(0, len(samples) - _ROW + 1, _ROW)):
+        told += len(checks.row(row, samples[k : k + _ROW], not checks.active))
+        assert not checks.active or row <= 3144 // _ROW + most + 1
+    assert (told == 12) if most == 2 else (told <= 2)
+
+
 def test_missing_samples_begin_anew() -> None:
     samples = _signals(9)
     samples[1000:1100, 0] = np.nan
