@@ -24,8 +24,8 @@ from bondgraph.runtime.diagnosis.hypotheses import (
 from bondgraph.runtime.diagnosis.noise import CAREFUL, noise, stepped, uncovered, within
 from bondgraph.runtime.diagnosis.row_averages import lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
-from bondgraph.runtime.diagnosis.standing import Levels, apart
-from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
+from bondgraph.runtime.diagnosis.standing import Levels, apart, follows
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
@@ -283,9 +283,10 @@ class _Work:
         """
         own = limits(known, self.engine.residuals)
         whole = _Whole(self, np.array([limit.held for limit in own]))
-        engine = whole.engine
+        engine, table = whole.engine, np.array(own, dtype=float)
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
         length = max(2, round(window / self.engine.sample_time))
+        followed = follows(table, -(-length // self.every), HEALTHY)
         lasting = [self.all[k] for k, smooth in self.ways if smooth]
         behind = self.engine.configured(bounds=False)  # where it was a warm-up ago
         whole.run(samples[:start])
@@ -299,47 +300,52 @@ class _Work:
                 slopes = np.concatenate([slopes, past.run(part)], axis=1)
                 behind.run(samples[begin - start : begin - start + length])
             batch, _, _ = whole.run(part)
-            yield [self._seen(self.all[k], slopes[:, at], batch, own, rigid)
+            yield [self._seen(self.all[k], slopes[:, at], batch, table, followed, rigid)
                    for at, (k, _) in enumerate(self.ways)]  # fmt: skip
 
     def _seen(
-        self, hypothesis: Hypothesis, moved: Array, batch: Batch, own: Sequence[Limit],
-        rigid: Array,
+        self, hypothesis: Hypothesis, moved: Array, batch: Batch, own: Array,
+        followed: tuple[Array, Array], rigid: Array,
     ) -> _Seen:
-        top = np.array([limit.kappa * limit.sigma for limit in own])
         slopes = np.abs(moved)
         share = self.model.tolerances.get(hypothesis.fault, 0.0)
         tolerated = share * abs(self.nominal.get(hypothesis.fault, 0.0)) * slopes
         room = 2.0 * batch.bound - np.minimum(tolerated, batch.bound)
+        top = own[:, 2] * own[:, 0]
         shows = batch.valid & np.isfinite(top)
         least = _size(room + top, slopes, shows)
         at, residual = np.unravel_index(int(np.argmin(least)), least.shape)
-        course = least.min(axis=1)
-        rows = slice(self.every - 1, len(course), self.every)
-        sums = self._sums(np.where(shows, moved, 0.0), room, own)
-        course[rows] = np.minimum(course[rows], sums)
-        times = np.ceil(np.arange(1, _TIMES + 1) * len(course) / _TIMES).astype(int) - 1
         return _Seen(
             float(least[at, residual]),
             (int(at) + 1) * self.engine.sample_time,
             int(residual),
             least.min(axis=0),
             _size(np.broadcast_to(2.0 * rigid + top, slopes.shape), slopes, shows).min(axis=0),
-            np.minimum.accumulate(course)[times],
+            self._course(np.where(shows, moved, 0.0), room, own, followed),
         )
 
-    def _sums(self, moved: Array, room: Array, own: Sequence[Limit]) -> Array:
-        """With each row, the smallest change by which a sum of them is too high (see `Cusum`)."""
-        unit = np.array([x.unit or x.sigma * math.sqrt(x.memory) for x in own])
-        height = np.array([x.height for x in own])
+    def _course(
+        self, moved: Array, room: Array, own: Array, followed: tuple[Array, Array]
+    ) -> Array:
+        """The smallest change that has shown at each of so many times, by a sample or by a sum.
+
+        Both are beside a level that is followed (see `Levels` and `Cusum`).
+        """
         count = len(moved) // self.every
+        deviation, share = (np.repeat(x, self.every, axis=0)[: len(moved)] for x in followed)
+        beyond = own[:, 2] * np.hypot(own[:, 0], deviation)
+        course = _size(room + beyond, np.abs(moved * share), np.isfinite(beyond)).min(axis=1)
+        unit = np.where(own[:, 6] > 0.0, own[:, 6], own[:, 0] * np.sqrt(own[:, 5]))
         rows, rooms = (
             x[: count * self.every].reshape(count, self.every, len(own)).mean(axis=1)
-            for x in (moved, room)
+            for x in (moved * share, room + UNKNOWN * deviation)
         )
-        need = height * unit + np.cumsum(rooms + 0.5 * unit, axis=0)
-        slopes = np.abs(np.cumsum(rows, axis=0))
-        return np.asarray(_size(need, slopes, np.isfinite(need)).min(axis=1, initial=math.inf))
+        need = own[:, 3] * unit + np.cumsum(rooms + 0.5 * unit, axis=0)
+        sums = _size(need, np.abs(np.cumsum(rows, axis=0)), np.isfinite(need))
+        ends = slice(self.every - 1, count * self.every, self.every)
+        course[ends] = np.minimum(course[ends], sums.min(axis=1, initial=math.inf))
+        times = np.ceil(np.arange(1, _TIMES + 1) * len(course) / _TIMES).astype(int) - 1
+        return np.asarray(np.minimum.accumulate(course)[times])
 
 
 def _size(need: Array, slopes: Array, shows: Mask) -> Array:

@@ -22,6 +22,7 @@ from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
 FIRST = 6  #: rows of a log, or of a machine, that tell where it stands
+_SETTLES = 200  # rows after which it is known as well as it will be where a residual stands
 _BEYOND = 0.0005  # probability that one more log stands beyond the room for that, to either side
 
 
@@ -147,6 +148,29 @@ def _line(limits: Array, deviation: Array) -> Array:
     known = np.isfinite(limits[:, 0])
     sigma = np.where(known, limits[:, 0], 0.0)
     return np.where(known, limits[:, 2] * np.hypot(sigma, deviation), math.inf)
+
+
+def follows(limits: Array, rows: int, wait: int) -> tuple[Array, Array]:
+    """How a level that is followed hides a fault, with each of so many rows since that began.
+
+    How well it is known where each residual stands, a deviation, and which share of a fault that is
+    constant is not followed, (rows, residuals) each. A row tells after a `wait` of some.
+
+    >>> from bondgraph.runtime.diagnosis.tuning import Limit
+    >>> table = np.array([Limit(1.0, 1.0, 4.0, 9.0), Limit(1.0, 1.0, 4.0, 9.0, step=0.1)])
+    >>> deviation, share = follows(table, 20, wait=5)
+    >>> deviation[-1].round(2).tolist(), share[-1].round(2).tolist()
+    ([0.07, 0.32], [0.94, 0.25])
+    """
+    levels, known = Levels.tuned(limits), np.isfinite(limits[:, 0])
+    deviations, stands = np.zeros((rows, len(known))), np.zeros((rows + 1, len(known)))
+    for row in range(-_SETTLES, rows):
+        levels.ahead(alarmed=False)
+        at = max(row, 0)
+        deviations[at] = levels.unsure / UNKNOWN
+        value = float(row >= wait) - stands[at]
+        stands[at + 1] = stands[at] + levels.learn(row, value, levels.unsure, known)
+    return deviations, 1.0 - stands[:-1]
 
 
 def apart(logs: Sequence[Array]) -> tuple[float, Array]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from functools import cache
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.cusum import on_board
-from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart
+from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart, follows
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning
 from bondgraph.runtime.diagnosis.wander import Wander
 from bondgraph.runtime.log import Array
@@ -98,6 +99,20 @@ def test_what_goes_further_than_it_wanders_is_taken_back() -> None:
                 assert -back > 4.0 * np.hypot(1.0, 0.1 * np.sqrt(k)) - 0.2
                 break
         assert (k < 500) == drifts
+
+
+@pytest.mark.parametrize("step", [0.05, 0.3, 2.0])
+def test_of_a_fault_that_lasts_less_and_less_is_beside_the_level_that_is_followed(
+    step: float,
+) -> None:
+    """The gain K in the end is by the equation of Riccati: 1 - K with each row that tells."""
+    noise = 1.5
+    variance = step**2 / 2.0 + math.sqrt(step**4 / 4.0 + (step * noise) ** 2)
+    kept = 1.0 - variance / (variance + noise**2)
+    limit = Limit(noise, 1.0, 4.0, 9.0, step=step)
+    deviation, share = follows(np.array([limit], dtype=float), 12, wait=4)
+    assert deviation[:, 0] == pytest.approx([math.sqrt(variance)] * 12, rel=1e-5)
+    assert share[:, 0] == pytest.approx([kept ** max(0, row - 4) for row in range(12)], rel=1e-5)
 
 
 def test_code_that_learns_nothing_has_room_for_all_places() -> None:

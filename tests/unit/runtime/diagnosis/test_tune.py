@@ -126,22 +126,25 @@ def test_the_smallest_fault_is_the_limit_over_the_slope_at_the_end_of_a_window()
 def test_what_shows_so_far_is_what_a_sample_tells_or_a_sum_of_rows() -> None:
     """Behind one lag an offset of U, a ramp from the sample before on and a step from then on,
     comes as 1 - exp(-b t) but for that ramp; a sum of n averages of it passes its height with the
-    mean excess of height/n + 1/2 deviations."""
+    mean excess of height/n + 1/2 deviations. Both are beside a level that is known as well as the
+    filter of Kalman knows it in the end, of a walk of such a step beside such noise."""
     limit, pole = tuned().tuning.limits["r1"], tuned().tuning.bandwidth
     every = math.ceil(3.0 / pole / _STEP)
     count = round(_WINDOW / _STEP)
     ramp = (1.0 - math.exp(-pole * _STEP)) / (pole * _STEP)
     slopes = 1.0 - ramp * np.exp(-pole * _STEP * np.arange(count))
-    samples = limit.kappa * limit.sigma / slopes
+    half = limit.step**2 / 2.0
+    level = math.sqrt(half + math.sqrt(half**2 + (limit.step * limit.unit) ** 2))
+    samples = limit.kappa * math.hypot(limit.sigma, level) / slopes
     sizes = samples.copy()
     for n in range(1, count // every + 1):
         reached = slopes[: n * every].sum() / every
-        by_sums = limit.unit * (limit.height + 0.5 * n) / reached
+        by_sums = (limit.unit * (limit.height + 0.5 * n) + 2.0 * level * n) / reached
         sizes[n * every - 1] = min(sizes[n * every - 1], by_sums)
     course = next(s.course for s in tuned().shown if s.hypothesis[:2] == ("U", "offset"))
     ends = count * np.arange(1, len(course) + 1) // len(course) - 1
     assert list(course) == pytest.approx(np.minimum.accumulate(sizes)[ends].tolist(), rel=1e-4)
-    assert course[-1] < 0.9 * samples.min()  # here a sum tells most
+    assert course[-1] < 0.95 * samples.min()  # here a sum tells most
 
 
 def test_from_which_size_on_each_residual_shows_a_fault() -> None:
