@@ -2,8 +2,9 @@
 
 Residuals are r(t) = sum_k s_k(t) d_k + s_j(t) c_j(t) + noise, with the sensitivities s through the
 same filter. The d are what parameters are off by within their tolerances, constant and normal with
-the deviation of their tolerance; the change c of candidate j stays as it is, or is a signal that
-moves little from one moment to the next, in straight lines between these (a linear spline). With
+the deviation of their tolerance; the change c of candidate j stays as it is, grows steadily since
+the onset, or is a signal that moves little from one moment to the next, in straight lines between
+these (a linear spline). With
 both integrated out (Gaussian evidence; MacKay, 1992), candidates are compared by how probable they
 make what was seen. A residual that a fault would have to move and that did not speaks against it by
 as much as it would have moved, and no more.
@@ -14,21 +15,22 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from itertools import accumulate, product
+from itertools import accumulate, chain, product
 from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.history import History, triangle
-from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
 from bondgraph.runtime.diagnosis.model_error import SHARE, shares, unroot
 from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
 #: Of the usual change: how large a fault is, nobody knows. Close together, so that no fault is
-#: better off than another for being just as large as one of them.
-_SCALES = tuple(10.0 ** (k / 4.0) for k in range(-16, 9))
+#: better off than another for being just as large as one of them. A wire that breaks is a thousand
+#: times its resistance.
+_SCALES = tuple(10.0 ** (k / 4.0) for k in range(-16, 17))
 _KEEP = 0.95  # correlation of a fault's change between the ends of a chunk
 _CHUNK = 4  # rows in which the change is taken as a straight line, at least
 _PARTS = 15  # chunks at most
@@ -123,18 +125,14 @@ class Evidence:
 
     def explained(self, cases: Sequence[Case]) -> list[list[Explained]]:
         """How well each fault of each case explains the rows, in the order of the hypotheses."""
-        own = [_by_fault(case) for case in cases]
         first = list(accumulate([len(case.hypotheses) for case in cases], initial=0))
-        sized = [[start + j for j in numbers if j not in case.others]
-                 for case, start, ways in zip(cases, first, own, strict=False)
-                 for numbers in ways.values()]  # fmt: skip
-        alone = [[j] for numbers in sized for j in numbers]
-        every = [numbers for numbers in sized if len(numbers) > 1]
-        fits = self._fits(cases, [*alone, *every])
-        found = []
-        for case, start, ways in zip(cases, first, own, strict=False):
-            found.append([self._fault(case, numbers, start, fits) for numbers in ways.values()])
-        return found
+        faults = [[(case, numbers, start) for numbers in _by_fault(case).values()]
+                  for case, start in zip(cases, first, strict=False)]  # fmt: skip
+        sets = [[start + j for j in own] for case, numbers, start in chain(*faults)
+                for own in (*([j] for j in _sized(case, numbers)), _at_once(case, numbers))
+                if own]  # fmt: skip
+        fits = self._fits(cases, sets)
+        return [[self._fault(*one, fits) for one in own] for own in faults]
 
     def pairs(self, case: Case, singles: Sequence[Explained]) -> list[ExplainedPair]:
         """How well two faults at once explain the rows, the best pair first.
@@ -180,7 +178,9 @@ class Evidence:
         slopes = np.concatenate([case.slopes for case in cases], axis=1)
         _finite(slopes)
         usual = np.array([h.usual for case in cases for h in case.hypotheses])
-        return _Unexplained(self._healthy, self._seen.moved(slopes, usual)).fits(sets)
+        moved = self._seen.moved(slopes, usual)
+        length = self._seen.length
+        return _Unexplained(self._healthy, moved, len(slopes), length).fits(sets)
 
     def _fault(
         self,
@@ -190,12 +190,12 @@ class Evidence:
         fits: Mapping[tuple[int, ...], _Fits],
     ) -> Explained:
         """One fault, by the numbers of its hypotheses in a case that begins at a number."""
-        sized = [j for j in numbers if j not in case.others]
+        sized, every = _sized(case, numbers), _at_once(case, numbers)
         chances = [self._instead(case.hypotheses[j], case.others[j])
                    for j in numbers if j in case.others]  # fmt: skip
         if sized:
             one = [fits[start + j,] for j in sized]
-            whole = fits[tuple(start + j for j in sized)] if len(one) > 1 else None
+            whole = fits[tuple(start + j for j in every)] if every else None
             chances.insert(0, _compared([case.hypotheses[j] for j in sized], one, whole))
         best = _either(chances)
         return best._replace(left=best.left / self._values, values=self._values)
@@ -267,8 +267,8 @@ class _Seen:
     def __init__(self, rows: Rows, prior: Array) -> None:
         count, residuals = rows.value.shape
         self._noise = np.sqrt(rows.weight)[:, :, None]
-        self._length = max(_CHUNK, -(-count // _PARTS))
-        own = shares(count, self._length)
+        self.length = max(_CHUNK, -(-count // _PARTS))
+        own = shares(count, self.length)
         error = SHARE * rows.value[:, :, None]
         ever = math.sqrt(own.ever) * error * np.eye(residuals)
         self._unroot = unroot(self._chunks(error)[..., 0], own)
@@ -281,7 +281,7 @@ class _Seen:
         First as what is left of a change that ends with the chunk, and then as one that begins with
         it.
         """
-        count, length = len(slopes), self._length
+        count, length = len(slopes), self.length
         before = -count % length
         begun = ((np.arange(before, before + count) % length + 1) / length)[:, None, None]
         columns = slopes.transpose(0, 2, 1) * usual
@@ -289,9 +289,9 @@ class _Seen:
 
     def _chunks(self, table: Array) -> Array:
         """A table (rows, residuals, columns) in units of noise, (chunks, rows, residuals, ...)."""
-        more = np.zeros((-len(table) % self._length, *table.shape[1:]))
+        more = np.zeros((-len(table) % self.length, *table.shape[1:]))
         table = np.concatenate([more, table * self._noise])  # of nothing nothing follows
-        return table.reshape(-1, self._length, *table.shape[1:])
+        return table.reshape(-1, self.length, *table.shape[1:])
 
     def _white(self, table: Array) -> Array:
         _finite(table)
@@ -303,8 +303,8 @@ class _Seen:
 class _Fits(NamedTuple):
     """Some hypotheses at once, where changes have about one size, for each of the ways.
 
-    These are scales of changes that move and of such that stay. `changes` and `deviations` are
-    those at the end, (ways, hypotheses); the rest is (ways,).
+    These are scales of changes that move, of such that stay and of such that grow. `changes` and
+    `deviations` are those at the end, (ways, hypotheses); the rest is (ways,).
     """
 
     evidence: Array
@@ -319,8 +319,24 @@ class _Fits(NamedTuple):
         return int(np.argmax(self.evidence))
 
 
+def _sized(case: Case, numbers: Sequence[int]) -> list[int]:
+    """Those of some hypotheses of a case that have a size."""
+    return [j for j in numbers if j not in case.others]
+
+
+def _at_once(case: Case, numbers: Sequence[int]) -> list[int]:
+    """Those of the hypotheses of a fault that act at once, too: an encoder that stands still.
+
+    Not a gain of what is no count: it takes a reading away, and an offset in its place explains
+    whatever that is.
+    """
+    counted = any(case.hypotheses[j].unit == COUNT for j in numbers)
+    own = [j for j in _sized(case, numbers) if counted or case.hypotheses[j].kind != "gain"]
+    return own if len(own) > 1 else []
+
+
 def _compared(own: Sequence[Hypothesis], alone: Sequence[_Fits], every: _Fits | None) -> Explained:
-    """Each hypothesis of a fault by itself, and all at once: one as probable as the other.
+    """Each hypothesis of a fault by itself, and some at once: one as probable as the other.
 
     Of hypotheses that are the same on these rows, as an offset and a gain of what is constant, the
     first one is told.
@@ -384,24 +400,27 @@ class _Healthy:
 class _Unexplained:
     """What the healthy machine leaves unexplained of what faults do, beside what was seen.
 
-    That is the rows that `_Healthy` leaves, with a column for each end of a chunk.
+    That is the rows that `_Healthy` leaves, with a column for each end of a chunk. What grows does
+    so since the first of `count` rows: about that much later the filter shows what there is.
     """
 
-    def __init__(self, healthy: _Healthy, faults: Array) -> None:
+    def __init__(self, healthy: _Healthy, faults: Array, count: int, length: int) -> None:
         chunks = healthy.chunks
         self._healthy = healthy
         self._within, moved = healthy.without(faults)
         steps = np.abs(np.subtract.outer(np.arange(chunks + 1), np.arange(chunks + 1)))
         self._spread = np.linalg.cholesky(_KEEP**steps)
-        self._steady = np.linalg.solve(self._spread, np.ones((chunks + 1, 1)))
+        ends = count - length * np.arange(chunks, -1, -1)
+        paths = np.stack([np.ones(chunks + 1), (ends - 1) / max(1, count - 1)], axis=1)
+        self._paths = np.linalg.solve(self._spread, paths).T[:, :, None]
         ending, begun = np.split(moved.transpose(2, 0, 1), 2)
         self._moved = ending @ self._spread[:-1] + begun @ self._spread[1:]
 
     def fits(self, sets: Sequence[Sequence[int]]) -> dict[tuple[int, ...], _Fits]:
         """Evidence for the hypotheses of each set at once, by their numbers.
 
-        Their changes have a normal prior, and stay as they are or are correlated in time: one as
-        probable as the other. By least squares: what changes explain is a part of what was seen,
+        Their changes have a normal prior, and stay as they are, grow or are correlated in time: one
+        as probable as the other. By least squares: what changes explain is a part of what was seen,
         which no rounding makes larger than that. So no fault gains by more than half the misfit of
         what it moves.
         """
@@ -417,12 +436,13 @@ class _Unexplained:
             for start in range(0, len(alike), at_once):
                 some = alike[start : start + at_once]
                 left = self._left(np.array(some))
-                moving = _scaled(left, np.kron(np.eye(size), self._spread[-1:]))
-                every = left[:, :, :-1] @ np.kron(np.eye(size), self._steady)
-                steady = triangle(np.concatenate([every, left[:, :, -1:]], axis=2))
-                both = [np.concatenate(pair, axis=1) for pair in zip(
-                    moving, _scaled(steady, np.eye(size)), strict=True)]  # fmt: skip
-                found |= zip(some, [_Fits(*one) for one in zip(*both, strict=True)], strict=True)
+                ways = [_scaled(left, np.kron(np.eye(size), self._spread[-1:]))]
+                for path in self._paths:
+                    every = left[:, :, :-1] @ np.kron(np.eye(size), path)
+                    along = triangle(np.concatenate([every, left[:, :, -1:]], axis=2))
+                    ways.append(_scaled(along, np.eye(size)))
+                all_ = [np.concatenate(own, axis=1) for own in zip(*ways, strict=True)]
+                found |= zip(some, [_Fits(*one) for one in zip(*all_, strict=True)], strict=True)
         return found
 
     def _left(self, sets: npt.NDArray[np.intp]) -> Array:

@@ -26,7 +26,7 @@ from bondgraph.runtime.diagnosis.isolation import (
 from bondgraph.runtime.diagnosis.naming import OneOrTwo, named, update
 from bondgraph.runtime.diagnosis.rows import Row
 
-_SCALES = [1e-4 * 10.0 ** (k / 4.0) for k in range(25)]
+_SCALES = [1e-4 * 10.0 ** (k / 4.0) for k in range(33)]
 _CHUNK, _PARTS, _KEEP = 4, 15, 0.95
 
 
@@ -56,6 +56,11 @@ def _course(rows: int) -> tuple[np.ndarray, np.ndarray]:
     when = [ends[-1] - (rows - 1 - t) / length for t in range(rows)]  # in chunks
     line = np.stack([np.interp(when, ends, one) for one in np.eye(len(ends))], axis=1)
     return line, _KEEP ** np.abs(np.subtract.outer(ends, ends))
+
+
+def _grows(rows: int) -> np.ndarray:
+    """A change that grows from the first row, where the filter still shows none, to the last."""
+    return np.arange(rows) / max(1, rows - 1)
 
 
 def _off(value: np.ndarray) -> np.ndarray:
@@ -92,7 +97,7 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
         Hypothesis("b", "drift", "", 2.0, False),
     )
     rest = draw.normal(size=(before + after, parameters, residuals))
-    slopes = draw.normal(size=(after, len(hypotheses), residuals))
+    slopes = 0.01 * draw.normal(size=(after, len(hypotheses), residuals))
     value = draw.normal(size=(before + after, residuals)) * 2.0
     weight = draw.uniform(0.5, 2.0, size=(before + after, residuals))
     history = History(spread)
@@ -109,11 +114,12 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
     healthy[behind, behind] += _off(value[before:])
     line, kept = _course(after)
     moving = line @ kept @ line.T
+    grows = _grows(after)
     courses = [np.kron(course, np.ones((residuals, residuals)))
-               for course in (moving, np.ones_like(moving))]  # fmt: skip
+               for course in (moving, np.ones_like(moving), np.outer(grows, grows))]  # fmt: skip
     both = [hypotheses.index(h) for h in pair.hypotheses]
     assert sorted(h.fault for h in pair.hypotheses) == ["a", "b"]
-    for fault, ways in (("a", [[0]]), ("b", [[1], [2], [3], [1, 2, 3]]), ("both", [both])):
+    for fault, ways in (("a", [[0]]), ("b", [[1], [2], [3], [1, 3]]), ("both", [both])):
         one = _flat(slopes)
         densities = []
         for own, scale, same in product(ways, _SCALES, courses):
@@ -159,7 +165,8 @@ def test_a_fault_that_moves_nothing_that_is_off_explains_nothing() -> None:
     # explain many thousand times more than there was to be explained.
     count, scale = 24, 0.3
     hypotheses = tuple(
-        Hypothesis("encoder", kind, "", scale, False) for kind in ("offset", "gain", "drift")
+        Hypothesis("encoder", kind, unit, scale, False)
+        for kind, unit in (("offset", "count"), ("gain", ""), ("drift", "count/s"))
     )
     for seed in range(12):
         draw = np.random.default_rng(seed)
@@ -201,7 +208,8 @@ def _exact_ratio(
     healthy = many(noise) + many(rest) @ many(rest).T
     line, kept = map(many, _course(len(value)))
     moving = line @ kept @ line.T
-    courses = [moving, many(np.ones_like(moving))]
+    grows = many(_grows(len(value)))
+    courses = [moving, many(np.ones_like(moving)), np.outer(grows, grows)]
     ratios = []
     for own, scale, course in product(ways, _SCALES, courses):
         one = many(slopes[:, own]) * mpf(scale)
@@ -241,6 +249,29 @@ def test_what_was_there_is_found_with_its_size() -> None:
     assert best.fault == "b" and best.change == pytest.approx(0.8, abs=0.1)
     assert best.left == pytest.approx(1.0, abs=0.35) and best.values == 80
     assert probabilities(found)["b"] > 0.999
+
+
+def test_a_sensor_is_not_wrong_by_whatever_it_reads() -> None:
+    """R i is missing of a voltage that is constant otherwise: the reading less an offset, that is.
+
+    The resistance grows first and stays then; the sensor would need a gain that takes its reading
+    away and 5 V in its place.
+    """
+    draw = np.random.default_rng(9)
+    count, noise = 24, 0.002
+    current = 0.02 + 0.005 * np.sin(np.arange(count))
+    reading = 5.0 - np.minimum(10.0 * np.arange(count), 100.0) * current
+    value = reading - 5.0 + noise * draw.normal(size=count)
+    ways = (
+        Hypothesis("R", "value", "Ohm", 0.25, True),
+        Hypothesis("U", "offset", "V", 1.5, False),
+        Hypothesis("U", "gain", "", 0.3, False),
+        Hypothesis("U", "drift", "V/s", 0.75, False),
+    )
+    slopes = np.stack([-current, np.ones(count), reading, np.arange(1.0, count + 1)], axis=1)
+    weight = np.full((count, 1), noise**-2.0)
+    rows = Rows(value[:, None], weight, np.zeros((count, 0, 1)), slopes[:, :, None])
+    assert probabilities(explain(rows, ways, History(np.zeros(0))))["R"] > 0.95
 
 
 def test_of_ways_that_are_the_same_the_first_is_told() -> None:
