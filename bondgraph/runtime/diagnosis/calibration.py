@@ -545,12 +545,11 @@ def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[s
     if not found:
         return Shown(hypothesis, None, None, "")
     at = min(len(found) - 1, math.floor(_SURE * len(found)))
+    course = tuple(np.sort([s.course for s in found], axis=0)[at].tolist())
     size = sorted(s.size for s in found)[at]
     seen = [s for s in found if math.isfinite(s.size)]
     if not math.isfinite(size) or not seen:
-        return Shown(hypothesis, None, None, "")
+        return Shown(hypothesis, None, None, "", course=course)
     delay = float(np.median([s.delay for s in seen]))
     often = np.bincount([s.residual for s in seen])
-    course = np.sort([s.course for s in found], axis=0)[at]
-    where = residuals[int(np.argmax(often))]
-    return Shown(hypothesis, size, delay, where, course=tuple(course.tolist()))
+    return Shown(hypothesis, size, delay, residuals[int(np.argmax(often))], course=course)

@@ -31,9 +31,9 @@ class Detection:
     large fault, some more for a small one. A row in which one is as far out as an alarm takes
     speaks against that, however it was before: it may swing. A fault that comes and goes is not
     told each time: what comes back soon has to be away for twice as long the next time, for so many
-    rows at most as a `pause` has. Nor does a
-    row tell in which the fault that explains all would not show, as where it acts in a part of a
-    motion only; when nothing is out for long, it is over nevertheless.
+    rows at most as a `pause` has. Nor does a row tell in which the fault that explains all would
+    not show, as where it acts in a part of a motion only; when nothing is out for long, it is over
+    nevertheless.
     """
 
     def __init__(

@@ -4,10 +4,9 @@ Residuals are r(t) = sum_k s_k(t) d_k + s_j(t) c_j(t) + noise, with the sensitiv
 same filter. The d are what parameters are off by within their tolerances, constant and normal with
 the deviation of their tolerance; the change c of candidate j stays as it is, grows steadily since
 the onset, or is a signal that moves little from one moment to the next, in straight lines between
-these (a linear spline). With
-both integrated out (Gaussian evidence; MacKay, 1992), candidates are compared by how probable they
-make what was seen. A residual that a fault would have to move and that did not speaks against it by
-as much as it would have moved, and no more.
+these (a linear spline). With both integrated out (Gaussian evidence; MacKay, 1992), candidates are
+compared by how probable they make what was seen. A residual that a fault would have to move and
+that did not speaks against it by as much as it would have moved, and no more.
 """
 
 from __future__ import annotations
