@@ -72,6 +72,26 @@ def test_of_a_free_motion_only_the_time_constant_is_told() -> None:
     assert found.values["m"] > 1.0  # and not the other solution, all of them zero
 
 
+def test_of_a_body_that_is_heated_only_ratios_are_told() -> None:
+    """p U^2/n = C dT/dt + G T: all of it is nothing where C and G are, and p is or n is large.
+
+    Of all four a thousandth leaves much, as p/n is the same.
+    """
+    text = """bg 1
+model M { input U; param n = 0.5; param p = 1 W; param C = 2 J/K; param G = 3 W/K
+    Sf:heat = p*U^2/n; 0:body { <- heat; -> C:C; -> R:r = 1/G; -> De:T } }"""
+    power, temperature = (2.0 * DRIVE) ** 2 * 2.0, np.zeros(N)
+    for k in range(1, N):  # truth: as declared, but G = 4
+        step = power[k - 1] - 4.0 * temperature[k - 1]
+        temperature[k] = temperature[k - 1] + step / 2.0 / RATE
+    found = fitted(text, U=2.0 * DRIVE, T=temperature + noise(0.02))
+    values = found.values
+    assert math.isclose(values["G"] / values["C"], 2.0, rel_tol=0.05)
+    assert math.isclose(values["p"] / values["n"] / values["C"], 1.0, rel_tol=0.05)
+    assert all(p.error is None and not p.bound for p in found.parameters)
+    assert all(abs(p.value / p.nominal - 1.0) < 0.5 for p in found.parameters)
+
+
 def test_of_a_blocked_rotor_the_constant_of_the_motor_is_not_told() -> None:
     text = Path("models/dc_motor.bg").read_text().replace("load : N.m", "load : N.m unknown")
     c = bondgraph.compile(text=text, rate=RATE)
