@@ -7,7 +7,7 @@ fault is found whatever its course.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence, Set
+from collections.abc import Callable, Container, Hashable, Mapping, Sequence, Set
 from functools import partial
 from operator import attrgetter
 from typing import NamedTuple, TypeVar
@@ -29,7 +29,7 @@ from bondgraph.exact.plant_equations import has_sides
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.exact.switch_modes import assignments, modes_of
 from bondgraph.exact.trajectory import Trajectory
-from bondgraph.field.numbers import CUT, Undefined
+from bondgraph.field.numbers import CUT, DividedByZero, Undefined
 from bondgraph.ir.expr import Expr, Kind, Op, symbols
 
 T = TypeVar("T")
@@ -43,6 +43,7 @@ _ROUNDS = 4  # so many times as many points where a branch was not met: it may h
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
 _FEW = 8  # faults that are tried one by one where there are branches
 _TRIES = 40  # a point where a square root has no value is drawn again
+_LATER_TRIES = 4  # the same where it has divided by zero at all of so many points before
 _NO_POINT = "no point was found at which all its laws hold"
 
 
@@ -62,6 +63,7 @@ class Reactions:
         self.faults = {symbol: name for name, symbol in self.symbols.items()}
         switches = {symbol: symbol.symbol.name for symbol in modes or ()}
         self._acting = {**self.faults, **switches}  # all that `moves` may be asked for
+        self._divided: set[Hashable] = set()  # what divided by zero wherever it was tried
         self._faulty_parameters = [s for s in self.faults if s.symbol.kind is Kind.PARAM]
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
@@ -106,7 +108,8 @@ class Reactions:
                 continue
             try:
                 attempt = partial(self.at_trajectory, exprs, modes)
-                parts, met = self.draw(attempt, 1000 * self.seed + point)
+                number = 1000 * self.seed + point
+                parts, met = self.draw(attempt, number, in_modes(exprs, modes))
             except ExactUnavailable:  # no trajectory, or no slope where a machine rests
                 hopeless.append(modes)
                 continue
@@ -206,7 +209,8 @@ class Reactions:
         turns = max(1, turns // len(known))
         for turn, modes in [(turn, modes) for turn in range(turns) for modes in known]:
             try:
-                found = self.draw(partial(value, modes, turn % 2 > 0), 3000 * self.seed + turn)
+                attempt = partial(value, modes, turn % 2 > 0)
+                found = self.draw(attempt, 3000 * self.seed + turn, in_modes([expr], modes))
             except ExactUnavailable as reason:
                 failure = reason
                 continue
@@ -245,17 +249,27 @@ class Reactions:
             return sample.algebra.moves(found) or (isinstance(sample, Trajectory) and sample.still)
 
         try:
-            return not self.draw(moved, 3000 * self.seed)
+            return not self.draw(moved, 3000 * self.seed, (expr, id(part)))
         except (ExactUnavailable, Mixed):
             return False
 
-    def draw(self, attempt: Callable[[int], T], number: int) -> T:
-        """The result at a random point; points where something has no value are drawn again."""
-        for turn in range(_TRIES):
+    def draw(self, attempt: Callable[[int], T], number: int, of: Hashable = None) -> T:
+        """The result at a random point; points where something has no value are drawn again.
+
+        `of` names what may be asked for again, with other faults perhaps. Where it divided by zero
+        at all of `_TRIES` points, a few tries are enough later: it does so in the whole mode, and
+        a fault that takes the divisor away from zero does so at nearly every point. One that does
+        so in a small part of what the machine does, where the healthy one never has a value, may
+        be missed. Raises `ExactUnavailable` where all tries are in vain.
+        """
+        always = of is not None
+        for turn in range(_LATER_TRIES if of in self._divided else _TRIES):
             try:
                 return attempt(number + 100_000 * turn)
-            except Undefined:
-                continue
+            except Undefined as reason:
+                always = always and isinstance(reason, DividedByZero)
+        if always:
+            self._divided.add(of)
         raise ExactUnavailable("no point was found at which every law has a value")
 
 
@@ -267,6 +281,11 @@ def _by_presence(expr: Expr) -> Sensitivity:
     orders = dict.fromkeys(signals, order)
     everything = frozenset(inside)
     return Sensitivity(dict.fromkeys(inside, True), orders, frozenset(), (), everything)
+
+
+def in_modes(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> Hashable:
+    """What relations are called that are drawn in some modes, see `Reactions.draw`."""
+    return tuple(exprs), tuple((modes or {}).items())
 
 
 def branches(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None = None) -> bool:

@@ -16,7 +16,7 @@ from random import Random
 
 from flint import arb, ctx, fmpq
 
-from bondgraph.field.numbers import Number, Patch, Undefined
+from bondgraph.field.numbers import DividedByZero, Number, Patch, Undefined
 from bondgraph.ir.tables import Rows, backwards, columns, knots
 
 #: A ball around zero of at most this radius is zero: 2**-256 is 1e-77.
@@ -86,9 +86,9 @@ class Reals:
         raise self._precision.more()
 
     def inverse(self, x: Number) -> Number:
-        """1/x; raises `Undefined` for zero."""
+        """1/x; raises `DividedByZero` for zero."""
         if not self.nonzero(x):
-            raise Undefined("division by zero")
+            raise DividedByZero("division by zero")
         return arb(1) / x
 
     def sign(self, x: Number) -> int:

@@ -19,6 +19,10 @@ class Undefined(ArithmeticError):
     """A value does not exist at this random point (1/0, root of a negative): draw another."""
 
 
+class DividedByZero(Undefined):
+    """1/0: at a random point a divisor is zero only where it is so all around the point."""
+
+
 class Patch(NamedTuple):
     """What a table is near a point: f + (a u + b v + c u v)/(1 + d v) at arguments off by u, v."""
 

@@ -15,7 +15,7 @@ from typing import Any
 
 from flint import nmod
 
-from bondgraph.field.numbers import Number, Patch, Undefined
+from bondgraph.field.numbers import DividedByZero, Number, Patch, Undefined
 
 P = (1 << 61) - 2373
 Q = (P - 1) // 2
@@ -24,11 +24,11 @@ ZERO, ONE = nmod(0, P), nmod(1, P)
 
 
 def inverse(x: Number) -> Number:
-    """1/x; raises `Undefined` for zero."""
+    """1/x; raises `DividedByZero` for zero."""
     try:
         return ONE / x
     except ZeroDivisionError:
-        raise Undefined("division by zero") from None
+        raise DividedByZero("division by zero") from None
 
 
 def sign(x: Number) -> int:

@@ -17,7 +17,7 @@ import networkx as nx
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.parity import parity
 from bondgraph.exact.plant import ExactUnavailable, Plant
-from bondgraph.exact.reactions import Reactions
+from bondgraph.exact.reactions import Reactions, in_modes
 from bondgraph.field.numbers import Numbers
 from bondgraph.field.sparse import Row, add_multiple, eliminate
 from bondgraph.ir.expr import Expr
@@ -83,7 +83,8 @@ def _left(
             break
         attempt = partial(_at_a_point, exprs, faults, suspects, reactions.plant, modes)
         try:
-            suspects = reactions.draw(attempt, 1000 * reactions.seed + number)
+            point = 1000 * reactions.seed + number
+            suspects = reactions.draw(attempt, point, in_modes(exprs, modes))
             met = True
         except ExactUnavailable as reason:
             failure = reason

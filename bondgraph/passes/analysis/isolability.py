@@ -15,7 +15,7 @@ from functools import partial
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.parity import parity
 from bondgraph.exact.plant import ExactUnavailable, Plant
-from bondgraph.exact.reactions import Reactions
+from bondgraph.exact.reactions import Reactions, in_modes
 from bondgraph.field.numbers import Numbers
 from bondgraph.field.sparse import Row, eliminate
 from bondgraph.ir.expr import Expr, Kind, symbols
@@ -76,7 +76,7 @@ def _divided(
             break
         attempt = partial(_at_a_point, own, found, plant, modes)
         try:
-            found = reactions.draw(attempt, 1000 * seed + number)
+            found = reactions.draw(attempt, 1000 * seed + number, in_modes(own, modes))
         except ExactUnavailable:
             continue
         met = True

@@ -215,3 +215,32 @@ def test_where_a_law_is_left_out_nothing_is_proved(monkeypatch: pytest.MonkeyPat
     y = next(s.symbol for s in graph.sensors)
     with pytest.raises(ExactUnavailable):
         Reactions(plant, 1).at_trajectory([y], None, 1)
+
+
+def test_where_a_relation_divides_by_zero_each_fault_is_tried_at_few_points(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    c = compiled(
+        """model M { param a = 2; param d = 4; param g = 7; input on : bool
+        1:j { <- Se:u; -> R:brake { 0 = if(on, f, e) }; -> R:r { e = a*f*abs(f) }; -> Df:y }
+        j { -> R:s { e = d*f }; -> R:t { e = g*f } }
+        1:k { <- Se:v; -> R:q = 3; -> Df:w }
+        sensor z = j.f*k.f }"""
+    )
+    pool, graph = c.graph.pool, c.graph
+    y, z, w = (pool.symbol(name, Kind.SENSOR) for name in "yzw")
+    quotient = pool.sub(pool.div(z, y), w)  # none while the brake is on, unless y errs
+    drawn: list[tuple[str, ...]] = []
+    whole = Plant.sample
+
+    def counted(plant: Plant, *args: Any, **options: Any) -> object:
+        drawn.append(tuple(options.get("faults", ())))
+        return whole(plant, *args, **options)
+
+    monkeypatch.setattr(Plant, "sample", counted)
+    reactions = Reactions(Plant(graph), 1)
+    symbols = graph.fault_symbols()
+    moved = {name for name in "adguvwyz" if reactions.moves(quotient, symbols[name])}
+    assert moved == {"w", "y", "z"}
+    # at one point with the brake off, and with it on where all of forty have failed for `a`
+    assert [drawn.count((name,)) for name in "adguv"] == [41, 5, 5, 5, 5]
