@@ -38,7 +38,7 @@ def test_the_sample_on_the_page_is_what_is_answered_now() -> None:
 
 
 @settings(
-    max_examples=20,  # a later one takes ten minutes: `make random` looks at many more
+    max_examples=60,
     deadline=None,
     database=None,
     derandomize=True,
