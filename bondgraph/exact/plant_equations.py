@@ -188,8 +188,8 @@ def signature(
     out: dict[int, int] = {}
     for key in equation.form:
         variable, order = divmod(key, ORDERS)
-        if key != CONSTANT and order >= out.get(variable, 0):
-            out[variable] = order
+        if key != CONSTANT:
+            out[variable] = max(out.get(variable, 0), order)
     if equation.rest is not None:
         for variable, order in reach(place, equation.rest).items():
             out[variable] = max(out.get(variable, 0), order)
