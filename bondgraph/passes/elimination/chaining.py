@@ -175,7 +175,10 @@ class Chain:
             if found is None or found.hard:
                 continue
             balance = next(r for r in self.holders[variable] if r != row)
-            closed = self.substituted(found.value)
+            try:
+                closed = self.substituted(found.value)
+            except ZeroDivisionError:  # by what is always zero: the element cannot give it
+                continue
             how: How = "solved" if equation.state is None else "differentiated"
             self.closed[variable] = closed
             self.steps[variable] = Step(variable, found.value, closed, equation, how)
@@ -224,9 +227,12 @@ class Chain:
     def commanded(self, variable: Expr, equation: Equation) -> bool:
         """Whether an `int(...)` of the model adds up inputs alone, which no sensor says better."""
         assert equation.rate is not None
-        own = symbols(self.substituted(equation.rate))
+        if variable.kind is not Kind.INTEGRAL:
+            return False
         told = (Kind.INPUT, Kind.MODE, *CONSTANTS)
-        return variable.kind is Kind.INTEGRAL and all(s.kind in told for s in own)
+        with suppress(ZeroDivisionError):  # by what is always zero: it is never taken
+            return all(s.kind in told for s in symbols(self.substituted(equation.rate)))
+        return False
 
     def run(self) -> None:
         """Take the cheapest offers until nothing is offered any more."""
@@ -250,10 +256,11 @@ class Chain:
 
     def without(self, row: int, variable: Expr) -> None:
         """An equation loses its last unknown where what stands before it is zero: a relation."""
-        expr = self.substituted(self.system.equations[row].zero)
-        if not occurs(variable, expr):
-            self.used[row] = True
-            self.loops.row(row, expr)
+        with suppress(ZeroDivisionError):  # by what is always zero: the count will miss it
+            expr = self.substituted(self.system.equations[row].zero)
+            if not occurs(variable, expr):
+                self.used[row] = True
+                self.loops.row(row, expr)
 
     def settle(self, variable: Expr, step: Step, cost: Cost) -> None:
         """A variable is computed: its equations have an unknown less."""

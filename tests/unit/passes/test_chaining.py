@@ -592,3 +592,17 @@ def test_what_is_around_an_equation_hangs_together_by_equations_of_two_unknowns(
     assert chain.around([rows[4]]) == [2, 3, 4]
     assert chain.around([rows[1]]) == [1, 2]
     assert chain.free_in(rows[4]) == [x, y]
+
+
+@pytest.mark.parametrize("law", ["w/(a.f - b.f)", "int(w/(a.f - b.f))"])
+def test_what_divides_by_what_a_bond_makes_zero_is_a_relation_that_cannot_be_had(law: str) -> None:
+    """A transformer of one joins a and b, so that their flows are the same."""
+    c = compiled(f"""model M {{
+    input w
+    let q = {law}
+    1:a {{ <- Se:u; -> TF:t {{ f1 = f2 }} -> b; -> Df:fa }}
+    1:b {{ -> R:R = 2; <- Se:v = q }}
+}}""")
+    assert not list(c.residuals)
+    warnings = [d.code for d in c.report.diagnostics if d.severity == "warning"]
+    assert warnings == ["relations-missing"]
