@@ -191,9 +191,11 @@ class Reactions:
             return False
         size = terms_needed([expr])
 
-        def value(modes: Mapping[Expr, int] | None, turned: bool, number: int) -> bool:
+        def value(
+            modes: Mapping[Expr, int] | None, turned: bool, acting: tuple[str, ...], number: int
+        ) -> bool:
             sample = self.plant.sample(
-                [expr], number, size, faults=faults, modes=modes, turned=turned
+                [expr], number, size, faults=acting, modes=modes, turned=turned
             )
             found = evaluate([expr], sample, size)[0]
             moved = sample.algebra.moves(found)
@@ -210,7 +212,10 @@ class Reactions:
         for turn, modes in [(turn, modes) for turn in range(turns) for modes in known]:
             try:
                 attempt = partial(value, modes, turn % 2 > 0)
-                found = self.draw(attempt, 3000 * self.seed + turn, in_modes([expr], modes))
+                found = self.draw(
+                    partial(attempt, faults), 3000 * self.seed + turn, in_modes([expr], modes),
+                    partial(attempt, ()),
+                )  # fmt: skip
             except ExactUnavailable as reason:
                 failure = reason
                 continue
@@ -253,24 +258,44 @@ class Reactions:
         except (ExactUnavailable, Mixed):
             return False
 
-    def draw(self, attempt: Callable[[int], T], number: int, of: Hashable = None) -> T:
+    def draw(
+        self,
+        attempt: Callable[[int], T],
+        number: int,
+        of: Hashable = None,
+        healthy: Callable[[int], object] | None = None,
+    ) -> T:
         """The result at a random point; points where something has no value are drawn again.
 
         `of` names what may be asked for again, with other faults perhaps. Where it divided by zero
-        at all of `_TRIES` points, a few tries are enough later: it does so in the whole mode, and
-        a fault that takes the divisor away from zero does so at nearly every point. One that does
-        so in a small part of what the machine does, where the healthy one never has a value, may
-        be missed. Raises `ExactUnavailable` where all tries are in vain.
+        at all of `_TRIES` points, and without faults (`healthy`, where the attempt has some) as
+        well, a few tries are enough later: it does so in the whole mode, and a fault that takes the
+        divisor away from zero does so at nearly every point. One that does so in a small part of
+        what the machine does may be missed. Raises `ExactUnavailable` where all tries are in vain.
         """
-        always = of is not None
+        reasons, known = [], of is None or of in self._divided
         for turn in range(_LATER_TRIES if of in self._divided else _TRIES):
             try:
                 return attempt(number + 100_000 * turn)
             except Undefined as reason:
-                always = always and isinstance(reason, DividedByZero)
-        if always:
+                reasons.append(reason)
+        always = not known and all(isinstance(reason, DividedByZero) for reason in reasons)
+        if always and (healthy is None or _divides(healthy, number)):
             self._divided.add(of)
         raise ExactUnavailable("no point was found at which every law has a value")
+
+
+def _divides(attempt: Callable[[int], object], number: int) -> bool:
+    """Whether something divides by zero at each of `_TRIES` points."""
+    for turn in range(_TRIES):
+        try:
+            attempt(number + 100_000 * turn)
+        except DividedByZero:
+            continue
+        except (Undefined, ExactUnavailable):
+            return False
+        return False
+    return True
 
 
 def _by_presence(expr: Expr) -> Sensitivity:

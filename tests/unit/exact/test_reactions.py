@@ -12,6 +12,7 @@ from bondgraph.algebra.implicit import invert
 from bondgraph.exact.plant import ATTEMPTS, ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions, branches
 from bondgraph.exact.trajectory import Trajectory
+from bondgraph.field.numbers import DividedByZero
 from bondgraph.field.sparse import Contradiction
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
 from bondgraph.passes.relation.form import relations
@@ -244,3 +245,27 @@ def test_where_a_relation_divides_by_zero_each_fault_is_tried_at_few_points(
     assert moved == {"w", "y", "z"}
     # at one point with the brake off, and with it on where all of forty have failed for `a`
     assert [drawn.count((name,)) for name in "adguv"] == [41, 5, 5, 5, 5]
+
+
+@pytest.mark.parametrize(("well", "later"), [(False, 4), (True, 40)])
+def test_what_a_fault_brings_to_zero_is_tried_as_often_for_the_next_one(
+    well: bool, later: int
+) -> None:
+    """Where the healthy machine has a value no fault takes tries from another, in any order."""
+    graph = compiled("model M { 1:j { <- Se:u; -> R:r = 2; -> Df:y } }").graph
+    reactions, tried = Reactions(Plant(graph), 1), list[int]()
+
+    def never(number: int) -> None:
+        tried.append(number)
+        raise DividedByZero
+
+    def healthy(number: int) -> int:
+        return number if well else never(number) or 0
+
+    counts = []
+    for _ in range(2):
+        tried.clear()
+        with pytest.raises(ExactUnavailable):
+            reactions.draw(never, 1, "relation", healthy)
+        counts.append(len(tried))
+    assert counts == [40 if well else 80, later]
