@@ -53,6 +53,7 @@ _WRONG = 2.0  # of its noise: with more left of it a residual says that somethin
 _FOLLOWS = 0.2  # share that follows the inputs, above which that is another law
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
 _SAMPLED = 1e-4  # of the largest term: no sampled law is better
+_NEARLY = 0.05  # share of a residual, or of its noise, that is nearly nothing of it
 _NOTHING = 1e-4  # share of a residual that is no sum of its terms: noise makes more
 _SPANS = 20  # of the log, each of which is asked whether it fits
 
@@ -426,9 +427,10 @@ class _Problem:
         self.scale[zeros] = 1.0
         nothing = np.zeros(self.size)
         values = [self._numbers(nothing), *[{self._free[k]: 1.0} for k in zeros]]
-        still = np.zeros((len(values), len(self._runs.late) + len(self._runs.biased)))
+        small = {n: v * _STEP for n, v in values[0].items()}
+        still = np.zeros((len(values) + 1, len(self._runs.late) + len(self._runs.biased)))
         late, off = np.split(still, [len(self._runs.late)], axis=1)
-        clean, added = self._runs.rows(values, late, off)
+        clean, added = self._runs.rows([*values, small], late, off)
         rough = np.sqrt(np.nanmean(added[0] ** 2, axis=0))
         # the least variance that is reckoned with: sensors that never move tell no noise
         self._least = (1e-12 * rms(clean[0]) + 1e-150) ** 2
@@ -441,14 +443,16 @@ class _Problem:
         self._all = self._mask
         if not self._mask.any():
             raise ValueError("no residual is valid in the logs: nothing can be fitted")
-        self._homogeneous = self._vanishing()
+        nearly = rms(clean[-1]) < _NEARLY * np.maximum(rms(clean[0]), rough)
+        self._homogeneous = nearly | self._vanishing()
 
     def _vanishing(self) -> Mask:
         """Which residuals some of the parameters can make nothing of, all terms together.
 
         Such a residual is a sum of its terms by parameters (theorem of Euler on homogeneous
         functions): where these follow that sum it shrinks as a whole. The sum is exact whatever the
-        noise in it, and no accident where there is some.
+        noise in it, and no accident where there is some. One with a small term beside them is no
+        such sum, but nearly nothing where all parameters are small: that is asked as well.
         """
         value, terms = self._terms(np.zeros(self.size))
         found = np.zeros(value.shape[1], dtype=np.bool_)

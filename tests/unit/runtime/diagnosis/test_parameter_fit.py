@@ -92,6 +92,19 @@ model M { input U; param n = 0.5; param p = 1 W; param C = 2 J/K; param G = 3 W/
     assert all(abs(p.value / p.nominal - 1.0) < 0.5 for p in found.parameters)
 
 
+def test_a_small_force_beside_a_free_motion_makes_no_zeros_of_its_parameters() -> None:
+    """m dv/dt + b v = F, F small beside both: with m = b = 0 nearly nothing would be left."""
+    text = """bg 1
+model M { input F : N; param m = 2 kg; param b = 3 N.s/m
+    1:v { <- Se:s = F; -> I:m; -> R:b; -> Df:y } }"""
+    force, speed = 0.02 * np.sin(3.0 * TIME), np.full(N, 8.0)
+    for k in range(1, N):
+        speed[k] = speed[k - 1] + (force[k - 1] - 3.33 * speed[k - 1]) / 3.0 / RATE
+    found = fitted(text, F=force, y=speed + noise(0.05))
+    assert math.isclose(found.values["b"] / found.values["m"], 1.11, rel_tol=0.02)
+    assert found.values["m"] > 1.0 and not any(p.bound for p in found.parameters)
+
+
 def test_of_a_blocked_rotor_the_constant_of_the_motor_is_not_told() -> None:
     text = Path("models/dc_motor.bg").read_text().replace("load : N.m", "load : N.m unknown")
     c = bondgraph.compile(text=text, rate=RATE)
