@@ -24,7 +24,7 @@ from bondgraph.runtime.diagnosis.hypotheses import (
 from bondgraph.runtime.diagnosis.noise import CAREFUL, noise, stepped, uncovered, within
 from bondgraph.runtime.diagnosis.row_averages import lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
-from bondgraph.runtime.diagnosis.standing import Levels, apart, follows
+from bondgraph.runtime.diagnosis.standing import Levels, apart, followed
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
 from bondgraph.runtime.log import Array, Mask
@@ -286,7 +286,7 @@ class _Work:
         engine, table = whole.engine, np.array(own, dtype=float)
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
         length = max(2, round(window / self.engine.sample_time))
-        followed = follows(table, -(-length // self.every), HEALTHY)
+        level = followed(table, -(-length // self.every), HEALTHY)
         lasting = [self.all[k] for k, smooth in self.ways if smooth]
         behind = self.engine.configured(bounds=False)  # where it was a warm-up ago
         whole.run(samples[:start])
@@ -300,12 +300,12 @@ class _Work:
                 slopes = np.concatenate([slopes, past.run(part)], axis=1)
                 behind.run(samples[begin - start : begin - start + length])
             batch, _, _ = whole.run(part)
-            yield [self._seen(self.all[k], slopes[:, at], batch, table, followed, rigid)
+            yield [self._seen(self.all[k], slopes[:, at], batch, table, level, rigid)
                    for at, (k, _) in enumerate(self.ways)]  # fmt: skip
 
     def _seen(
         self, hypothesis: Hypothesis, moved: Array, batch: Batch, own: Array,
-        followed: tuple[Array, Array], rigid: Array,
+        level: tuple[Array, Array], rigid: Array,
     ) -> _Seen:
         slopes = np.abs(moved)
         share = self.model.tolerances.get(hypothesis.fault, 0.0)
@@ -321,18 +321,18 @@ class _Work:
             int(residual),
             least.min(axis=0),
             _size(np.broadcast_to(2.0 * rigid + top, slopes.shape), slopes, shows).min(axis=0),
-            self._course(np.where(shows, moved, 0.0), room, own, followed),
+            self._course(np.where(shows, moved, 0.0), room, own, level),
         )
 
     def _course(
-        self, moved: Array, room: Array, own: Array, followed: tuple[Array, Array]
+        self, moved: Array, room: Array, own: Array, level: tuple[Array, Array]
     ) -> Array:
         """The smallest change that has shown at each of so many times, by a sample or by a sum.
 
         Both are beside a level that is followed (see `Levels` and `Cusum`).
         """
         count = len(moved) // self.every
-        deviation, share = (np.repeat(x, self.every, axis=0)[: len(moved)] for x in followed)
+        deviation, share = (np.repeat(x, self.every, axis=0)[: len(moved)] for x in level)
         beyond = own[:, 2] * np.hypot(own[:, 0], deviation)
         course = _size(room + beyond, np.abs(moved * share), np.isfinite(beyond)).min(axis=1)
         unit = np.where(own[:, 6] > 0.0, own[:, 6], own[:, 0] * np.sqrt(own[:, 5]))

@@ -16,7 +16,7 @@ _SLOPE_ERROR = 0.02  # of the residual: what its sensitivities are off by
 _DOUBTED = 0.5  # of the doubt: its deviation
 CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
 PAUSE = 32  #: rows: what comes back later has been away
-_LEAST, _CALM = 4, 10.0  # of these rows at least, or s: no more lines are too many to read
+_LEAST, _CALM = 4, 10.0  # rows at least, or s: a line every ten seconds can be read
 _SOON = 4  # times the rows that had to be quiet: what comes back within them has not been away
 
 

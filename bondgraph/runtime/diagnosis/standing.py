@@ -150,7 +150,7 @@ def _line(limits: Array, deviation: Array) -> Array:
     return np.where(known, limits[:, 2] * np.hypot(sigma, deviation), math.inf)
 
 
-def follows(limits: Array, rows: int, wait: int) -> tuple[Array, Array]:
+def followed(limits: Array, rows: int, wait: int) -> tuple[Array, Array]:
     """How a level that is followed hides a fault, with each of so many rows since that began.
 
     How well it is known where each residual stands, a deviation, and which share of a fault that is
@@ -158,7 +158,7 @@ def follows(limits: Array, rows: int, wait: int) -> tuple[Array, Array]:
 
     >>> from bondgraph.runtime.diagnosis.tuning import Limit
     >>> table = np.array([Limit(1.0, 1.0, 4.0, 9.0), Limit(1.0, 1.0, 4.0, 9.0, step=0.1)])
-    >>> deviation, share = follows(table, 20, wait=5)
+    >>> deviation, share = followed(table, 20, wait=5)
     >>> deviation[-1].round(2).tolist(), share[-1].round(2).tolist()
     ([0.07, 0.32], [0.94, 0.25])
     """

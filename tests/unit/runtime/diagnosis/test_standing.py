@@ -11,7 +11,7 @@ import pytest
 
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.cusum import on_board
-from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart, follows
+from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart, followed
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning
 from bondgraph.runtime.diagnosis.wander import Wander
 from bondgraph.runtime.log import Array
@@ -110,7 +110,7 @@ def test_of_a_fault_that_lasts_less_and_less_is_beside_the_level_that_is_followe
     variance = step**2 / 2.0 + math.sqrt(step**4 / 4.0 + (step * noise) ** 2)
     kept = 1.0 - variance / (variance + noise**2)
     limit = Limit(noise, 1.0, 4.0, 9.0, step=step)
-    deviation, share = follows(np.array([limit], dtype=float), 12, wait=4)
+    deviation, share = followed(np.array([limit], dtype=float), 12, wait=4)
     assert deviation[:, 0] == pytest.approx([math.sqrt(variance)] * 12, rel=1e-5)
     assert share[:, 0] == pytest.approx([kept ** max(0, row - 4) for row in range(12)], rel=1e-5)
 
