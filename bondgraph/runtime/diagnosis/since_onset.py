@@ -392,8 +392,9 @@ class SinceOnset:
         Where laws are bent what it does depends on its size. A size that is only the one that
         follows from what it does at that size may be one of several: a dead zone hides half of a
         fault. So the most probable one is looked for, in steps of its logarithm up and down, ever
-        smaller ones (Hooke and Jeeves, 1961); of those that are far from the most probable fault
-        the first one has to do.
+        smaller ones (Hooke and Jeeves, 1961). What is far from the most probable fault when the
+        first steps gain no more gets no smaller ones; not before, as far up a bent law what the
+        tangent takes for the size may be nothing like it.
         """
         rows, _ = self._weighed([])
         evidence = Evidence(rows, history)
@@ -403,10 +404,11 @@ class SinceOnset:
         best = {k: _Sized(one.evidence, self._tried[k][1]) for k, one in now.items()}
         best |= {k: _Sized(-math.inf, None) for k in wanted if best[k].change is None}
         self._larger(evidence, best, wanted)
-        top = max((one.evidence for one in best.values()), default=0.0)
-        steps = {k: _STEP for k in wanted if best[k].evidence >= top - _BEHIND}
+        steps = dict.fromkeys(wanted, _STEP)
         for _ in range(_ROUNDS):
-            steps = {k: step for k, step in steps.items() if step > _FINE}
+            top = max(one.evidence for one in best.values()) - _BEHIND if best else 0.0
+            steps = {k: step for k, step in steps.items()
+                     if step > _FINE and (step == _STEP or best[k].evidence >= top)}  # fmt: skip
             at = {k: best[k].change or wanted[k] for k in steps}
             before = {k: best[k].evidence for k in steps}
             tried = [self._larger(evidence, best, {k: at[k] * steps[k] ** way for k in steps})

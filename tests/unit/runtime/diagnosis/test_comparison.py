@@ -48,14 +48,20 @@ _RATE = 500.0
 _ONSET = 9.137  # s, in the middle of a row
 
 
-def _said(c: float = _C, w0: float = _W0, seconds: float = 16.0) -> list[Verdict]:
-    """The speed is given, and the torque that it takes: J w' + c tanh(w/w0), c or w0 changed."""
-    brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
+def _said(
+    c: float = _C, w0: float = _W0, of: float = _W0, middle: float = 1.5, seconds: float = 16.0
+) -> list[Verdict]:
+    """The speed is given, and the torque that it takes: J w' + c tanh(w/w0), c or w0 changed.
+
+    The speed swings about the `middle`, and w0 is that `of` the model before.
+    """
+    text = _MODEL.replace(f"w0 = {_W0} ", f"w0 = {of} ")
+    brake = Compilation(Source("brake.bg", text), options=bondgraph.Options(rate=_RATE))
     t = np.arange(round(seconds * _RATE)) / _RATE
-    w = 1.5 + np.sin(2.0 * t) + 0.7 * np.sin(5.1 * t)
+    w = middle + np.sin(2.0 * t) + 0.7 * np.sin(5.1 * t)
     rate = 2.0 * np.cos(2.0 * t) + 0.7 * 5.1 * np.cos(5.1 * t)
     late = t >= _ONSET
-    drag = np.where(late, c, _C) * np.tanh(w / np.where(late, w0, _W0))
+    drag = np.where(late, c, _C) * np.tanh(w / np.where(late, w0, of))
     draw = np.random.default_rng(5)
     columns = {"T": _J * rate + drag, "w": w + 1e-3 * draw.normal(size=len(t))}
     return _watched(brake, t, columns)
@@ -83,6 +89,18 @@ def test_a_large_fault_of_a_bent_law_has_its_true_size(
     assert last.candidates[0].fault == fault
     assert last.candidates[0].size == pytest.approx(change, rel=0.06)
     assert last.candidates[0].probability > 0.7
+
+
+@pytest.mark.parametrize(("of", "value"), [(0.05, 0.4), (0.1, 0.4)])
+def test_a_fault_is_not_given_up_for_its_first_size_far_up_a_bent_law(
+    of: float, value: float
+) -> None:
+    # what the tangent takes for its size is far from it, and with that size an offset of the speed
+    # explains more
+    last = [v for v in _said(w0=value, of=of, middle=0.8) if v.event == "update"][-1]
+    assert last.candidates[0].fault == "w0"
+    assert last.candidates[0].size == pytest.approx(value - of, rel=0.06)
+    assert last.candidates[0].probability > 0.9
 
 
 def test_a_storage_may_become_another_one_while_what_is_measured_goes_on() -> None:
