@@ -2,7 +2,8 @@
 
 Stores neither fill nor empty, known and unknown inputs are constant; only what a model writes as
 an integral (an angle that turns on) may grow. A linear plant has a linear space of such points.
-A mechanism whose parts move with its position has none in motion, but it can stand at rest.
+A mechanism whose parts move with its position has none in motion, but it can be held: its position
+stays, while currents of its coils go on. What has not even that can stand at rest.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from bondgraph.field.series import Series
 from bondgraph.ir.expr import Kind
 
 _TOP = 3  # coefficients that are solved for: an integral of an integral of a constant has as many
-_MAY_GROW = frozenset({Kind.STATE, Kind.INTEGRAL, Kind.READING})
+_HELD = frozenset({Kind.READING})
+_MAY_GROW = frozenset({Kind.STATE, Kind.INTEGRAL, *_HELD})
 
 
 def steady(
@@ -32,6 +34,13 @@ def steady(
     return _with(_still(plant), plant, equations, setting, random)
 
 
+def held(
+    plant: Assembly, equations: list[Equation], setting: Setting, random: Random, order: int
+) -> list[Series]:
+    """The same for a plant that stays where it is: what is written as an integral is constant."""
+    return _with(_still(plant, _HELD), plant, equations, setting, random)
+
+
 def rest(
     plant: Assembly, equations: list[Equation], setting: Setting, random: Random, order: int
 ) -> list[Series]:
@@ -41,8 +50,8 @@ def rest(
     return _with([*_still(plant), *zero], plant, equations, setting, random)
 
 
-def _still(plant: Assembly) -> list[Equation]:
-    grows = {v for s, (v, _) in plant.place.items() if s.symbol.kind in _MAY_GROW}
+def _still(plant: Assembly, may_grow: frozenset[Kind] = _MAY_GROW) -> list[Equation]:
+    grows = {v for s, (v, _) in plant.place.items() if s.symbol.kind in may_grow}
     stays = [v for v in range(plant.count_of) if v not in grows]
     return [Equation(-1, {v * ORDERS + 1: [1]}, None) for v in stays]
 

@@ -13,7 +13,7 @@ from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.exact.signal_algebra import Mixed
-from bondgraph.exact.steady_operation import rest, steady
+from bondgraph.exact.steady_operation import held, rest, steady
 from bondgraph.exact.taylor import Solver
 from bondgraph.exact.trajectory import Trajectory
 from bondgraph.field.numbers import Number, Undefined
@@ -41,7 +41,8 @@ def detectability(
     machine with switches or branches it is enough that one mode or branch shows the fault.
 
     Decided at the declared numbers, as the signatures are. Where the machine has no steady
-    operation it is taken at rest (no flow), and without that the answer is None.
+    operation in motion it is held where it is (its positions stay, its currents go on), else at
+    rest (no flow), and without that the answer is None.
     """
     sees = matrix.sees
     items = [(r.expr, sees[r.name]) for r in residuals.residuals]
@@ -108,10 +109,11 @@ class _Point:
 def _point(
     exprs: list[Expr], plant: Plant, number: int, modes: Mapping[Expr, int] | None
 ) -> _Point | None:
-    """A point of steady operation; for one relation one at rest if there is no other."""
+    """A point of steady operation; for one relation one that is held or at rest if need be."""
     found = _at(exprs, plant, number, modes, steady)
-    if found is None and len(exprs) == 1:
-        found = _at(exprs, plant, number, modes, rest)
+    for stiller in (held, rest) if len(exprs) == 1 else ():
+        if found is None:
+            found = _at(exprs, plant, number, modes, stiller)
     return found
 
 

@@ -102,6 +102,16 @@ CASES: dict[str, tuple[str, set[str], set[str]]] = {
         {"m", "l", "T", "y", "F", "b", "s"},
         {"J"},
     ),
+    # turning, the torque k i sin(angle) changes; held where it is, the current goes on: U - R i,
+    # T = k i sin(angle), and neither inertia nor friction counts
+    "held motor": (
+        """model M { param R=1; param L=2; param k=3; param J=4; param d=5
+        let a = int(w.f, 1/2)
+        Se:U -> 1:c; c { -> I:L; -> R:R; -> Df:i; -> MGY:g { e1 = k*sin(a)*f2 } -> w }
+        1:w { <- Se:T; -> I:J; -> R:d; -> Df:s } }""",
+        {"R", "U", "i", "k", "T", "s"},
+        {"L", "J", "d"},
+    ),
     # off, the residual is i itself; on, U - R i - L i'
     "switch": (
         """model M { param R=1; param L=2
