@@ -25,6 +25,7 @@ from bondgraph.algebra.sympy_elimination import (
     solve_for,
 )
 from bondgraph.algebra.sympy_signals import Signals, taken
+from bondgraph.algebra.written_out import terms_written_out
 from bondgraph.ir.derivation import Derivation, DerivationStep, Move
 from bondgraph.ir.equation_system import Equation
 from bondgraph.ir.expr import Expr, Kind, Op, symbols
@@ -34,6 +35,7 @@ from bondgraph.ir.residuals import Residual, Step
 from bondgraph.notation.line import show
 
 _DIFFERENTIATED = 12  # times that a relation is, at most
+_TERMS = 10_000  # of a relation whose derivatives are taken; SymPy needs seconds for 2 000
 _LONG = 60  # operations of a value that is shown as one sum where that is shorter
 
 
@@ -84,8 +86,12 @@ class _Replay:
         """All steps, up to the one that cannot be shown if there is one."""
         factor, stopped = sp.Integer(0), ""
         own = self.signals
-        arr = self._there(own.sympy(self.residual.expr))
         try:
+            if terms_written_out(self.residual.expr) > _TERMS:
+                raise Unshown(
+                    f"with its derivatives taken the relation has more than {_TERMS:,} terms"
+                )
+            arr = self._there(own.sympy(self.residual.expr))
             for step in self._in_order():
                 self._step(step)
             factor = self._closed(self._relations(), arr)

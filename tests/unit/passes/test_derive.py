@@ -252,3 +252,16 @@ def test_parities_of_functions_are_those_of_their_values() -> None:
             value = DOUBLES[name](at)
             parity = -1 if turned == -value else 1 if turned == value else 0
             assert record.parity == parity, name
+
+
+def test_a_chain_of_nonlinear_laws_is_too_long_to_be_derived() -> None:
+    # each pipe differentiates the turbulent friction of those behind it: 10^9 terms after five
+    pipes = "".join(
+        f"0:n{k} {{ -> C:c{k} = 1; -> 1:m{k} }}; m{k} {{ -> I:i{k} = 1; "
+        f"-> R:r{k} {{ e = k*ssq(f) }}; -> n{k + 1} }}\n"
+        for k in range(5)
+    )
+    text = f"bg 1\nmodel M {{ param k = 2\n Sf:q -> n0\n{pipes}0:n5 {{ -> C:c5 = 1; -> De:y }} }}"
+    found = bondgraph.compile(text=text).derivation("r1")
+    assert not found.complete
+    assert "has more than 10,000 terms" in found[0].stopped
