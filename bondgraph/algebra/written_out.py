@@ -46,6 +46,8 @@ def _terms(node: Expr, args: list[list[int]], order: int) -> list[int]:
         for (_, exponent), arg in zip(node.factors, args, strict=True):
             own = [arg] * exponent if 0 < exponent <= _POWER else [_function([arg], order)]
             for factor in own:
+                if not any(factor[1:]):  # a constant
+                    continue
                 found = [sum(found[j] * factor[k - j] for j in range(k + 1)) for k in orders]
         return found
     return _function(args, order)
