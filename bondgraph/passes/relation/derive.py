@@ -35,7 +35,7 @@ from bondgraph.ir.residuals import Residual, Step
 from bondgraph.notation.line import show
 
 _DIFFERENTIATED = 12  # times that a relation is, at most
-_TERMS = 10_000  # of a relation whose derivatives are taken; SymPy needs seconds for 2 000
+_TERMS = 50_000  # of a relation whose derivatives are taken; SymPy takes half a minute for 30 000
 _LONG = 60  # operations of a value that is shown as one sum where that is shorter
 
 
