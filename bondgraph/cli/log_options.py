@@ -43,13 +43,14 @@ timely.__name__ = "unit of time"
 def form_of(args: Namespace, name: str) -> Form:
     """What the arguments, and the map file, say of a log before it is read."""
     from bondgraph.runtime.log_numbers import Form
-    from bondgraph.runtime.monitoring.columns import read_time
+    from bondgraph.runtime.monitoring.columns import read_columns, read_time
 
     mapped = read_time(args.map) if args.map else None
     time = args.time or (mapped.column if mapped else None)
     unit = args.time_unit or (mapped.unit if mapped and not args.time else None)
     names = tuple(n.strip() for n in args.columns.split(",")) if args.columns else ()
-    return Form(name, time, unit, names, args.rate)
+    wanted = read_columns(args.map) if args.map and args.operating is None else frozenset()
+    return Form(name, time, unit, names, args.rate, wanted)
 
 
 def operating_of(

@@ -46,8 +46,8 @@ def arguments(parser: ArgumentParser) -> None:
     add = parser.add_argument
     add("model", metavar="MODEL", help="file.bg or file.bg:Name")
     add("logs", metavar="LOG", nargs="*",
-        help="samples: a .csv or .parquet file, or - for standard input (default); several, a"
-        " folder or a pattern are a fleet (docs/fleets.md)")  # fmt: skip
+        help="samples: a .csv, .parquet, .mcap or .jsonl file, or - for standard input (default);"
+        " several, a folder or a pattern are a fleet (docs/fleets.md)")  # fmt: skip
     sampled(add)
     isolating(parser)
     realised(parser)

@@ -1,4 +1,4 @@
-"""Reading a log from a file and writing one, as CSV or Parquet by the suffix."""
+"""Reading a log from a file and writing one, in the form that its suffix says."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def read_log(
     rate: float | None = None,
     columns: tuple[str, ...] = (),
 ) -> Log:
-    """The log in a file, by its suffix: `.parquet`, `.jsonl` (a JSON object a line), else CSV.
+    """The log in a file, by its suffix: `.parquet`, `.mcap`, `.jsonl` (an object a line), else CSV.
 
     In files of other origin `time` names the column of time; without it, one is taken that is
     called t, time or timestamp, in capitals or not, with a unit behind it or not (`time_ms`,
@@ -77,6 +77,10 @@ def read_form(path: str, form: Form) -> Log:
     try:
         if path.lower().endswith(".parquet"):
             return read_parquet(path, form)
+        if path.lower().endswith(".mcap"):
+            from bondgraph.runtime.mcap_file import read_mcap
+
+            return read_mcap(path, form)
         if path.lower().endswith(_OBJECTS):
             return read_objects(path, form)
         return read_csv(path, form)

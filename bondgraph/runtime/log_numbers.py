@@ -245,7 +245,8 @@ class Form(NamedTuple):
 
     `name` is for messages; `time` the name of the column of time (None: see `candidates`) and
     `unit` its unit (None: see `unit_of`); `columns` the header of CSV that has none; `rate`, in
-    samples a second, makes times where no column has them.
+    samples a second, makes times where no column has them. `wanted` are the columns that are
+    signals, where that is known (none: perhaps all): what has to be decoded leaves out the others.
     """
 
     name: str
@@ -253,6 +254,7 @@ class Form(NamedTuple):
     unit: str | None = None
     columns: tuple[str, ...] = ()
     rate: float | None = None
+    wanted: frozenset[str] = frozenset()
 
 
 class Reader:

@@ -121,8 +121,9 @@ def unit_of(name: str, values: Array, told: str | None, written: str) -> tuple[s
     """
     if told is not None:
         return _SAME.get(told, told), "as told"
-    own = _SAME.get(written, written) or named_unit(name)[1]
-    if own:
+    if written:
+        return _SAME.get(written, written), "as the file says"
+    if own := named_unit(name)[1]:
         return own, "as its name says"
     first = values[np.isfinite(values)][:1]
     for unit, scale in _EPOCH.items():
@@ -157,7 +158,7 @@ class Pace:
         if self._times is None:
             return
         self._unit = log.meta.get(TIME_UNIT, "s")
-        self._times += log.time[: 64 * _STEPS].tolist()
+        self._times += log.beat()[: 64 * _STEPS].tolist()
         steps = np.diff([t for t in self._times if t == t])
         steps = steps[steps > 0.0]
         if len(steps) < _STEPS:

@@ -9,7 +9,7 @@ from glob import glob, has_magic
 from bondgraph.runtime.fleet.watcher import LogFile
 from bondgraph.text.numerals import plural
 
-_SUFFIXES = (".csv", ".tsv", ".parquet", ".jsonl", ".ndjson")
+_SUFFIXES = (".csv", ".tsv", ".parquet", ".mcap", ".jsonl", ".ndjson")
 
 
 def many(names: Iterable[str]) -> bool:
@@ -22,8 +22,9 @@ def log_files(names: Iterable[str], tell: Callable[[str], object]) -> list[LogFi
     """The logs in order, each once; what a folder has besides is told.
 
     A folder stands for the logs in it and in the folders below, in order of their paths: `.csv`,
-    `.tsv`, `.parquet`, `.jsonl` and `.ndjson`. Names that begin with a dot or an underscore are
-    left out, as data sets of Parquet have them. A name that is not there is one log, which is bad.
+    `.tsv`, `.parquet`, `.mcap`, `.jsonl` and `.ndjson`. Names that begin with a dot or an
+    underscore are left out, as data sets of Parquet have them. A name that is not there is one log,
+    which is bad.
     """
     found: dict[str, LogFile] = {}
     for name in names:

@@ -100,6 +100,8 @@ def monitor(
         mapping = read_map(columns, setting(*compilation.runnable_programs).signals)
     elif columns is not None:
         mapping = dict(columns)
+    if mapping is not None and operating is None:
+        form = form._replace(wanted=frozenset(own.column for own in mapping.values()))
     settings = WatchSettings(compilation, tuning, form, mapping, operating, accept)
     assert compilation.program  # a wrong model is told before any log is looked at
     items, bad = _items(logs, form, tell)

@@ -223,6 +223,12 @@ def read_time(path: str | os.PathLike[str]) -> Mapped | None:
     return found
 
 
+def read_columns(path: str | os.PathLike[str]) -> frozenset[str]:
+    """The columns that a map file names."""
+    name = os.fspath(path)
+    return frozenset(_mapped(name, key, value).column for key, value in _entries(name))
+
+
 def _entries(name: str) -> Iterable[tuple[str, Any]]:
     """The entries of a map file; raises LogError for a file that is no TOML."""
     try:

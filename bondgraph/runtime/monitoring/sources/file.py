@@ -61,7 +61,7 @@ class LoadedLog(Source):
 
     def rate(self) -> float | None:
         """Samples a second, of the first ones."""
-        return rate_of(self._log.time)
+        return rate_of(self._log.beat())
 
     def samples(self) -> float | None:
         """See `Source`."""
@@ -126,7 +126,7 @@ class LinesFile(Source):
     def rate(self) -> float | None:
         """Samples a second, of the first ones."""
         first = self._first()
-        return rate_of(first.time) if first else None
+        return rate_of(first.beat()) if first else None
 
     def samples(self) -> float | None:
         """As many as fit into the file, if all lines are as long as the first ones."""
@@ -227,8 +227,9 @@ def file_source(path: str, form: Form, follow: bool = False) -> Source:
     """The samples in a file, by its suffix, or from a named pipe."""
     if stat.S_ISFIFO(_mode(path)):
         return Pipe(form, os.open(path, os.O_RDONLY), path)
-    if path.lower().endswith(".parquet"):
+    if path.lower().endswith((".parquet", ".mcap")):
         if follow:
-            raise LogError(path, None, "a Parquet file cannot be followed", "follow a CSV file")
+            kind = "a Parquet file" if path.lower().endswith(".parquet") else "an MCAP file"
+            raise LogError(path, None, f"{kind} cannot be followed", "follow a CSV file")
         return LoadedLog(os.path.abspath(path), read_form(path, form))
     return LinesFile(path, form, follow)
