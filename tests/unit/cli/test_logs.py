@@ -331,7 +331,7 @@ def test_a_row_of_units_below_the_header(monitored: Monitored) -> None:
     columns = (time * 1e3, supply, water - 273.15)
     for units in ("ms,K,degC", "[ms],,[°C]"):
         status, said, errors = monitored(_csv(f"time,Tin,T1\n{units}", columns))
-        assert status == 0 and "in ms as its name says" in errors
+        assert status == 0 and "in ms as the file says" in errors
         assert [e for e, _ in said] == [e for e, _ in plain] and "fault" in [e for e, _ in said]
     assert main(["tune", "tank.bg", "log.csv", "--bandwidth", "0.02"]) == 0
 
