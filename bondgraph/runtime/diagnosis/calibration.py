@@ -21,10 +21,18 @@ from bondgraph.runtime.diagnosis.hypotheses import (
     rows_apart,
     sized,
 )
-from bondgraph.runtime.diagnosis.noise import CAREFUL, noise, stepped, uncovered, within
-from bondgraph.runtime.diagnosis.row_averages import lasting
+from bondgraph.runtime.diagnosis.noise import (
+    CAREFUL,
+    FILTERED,
+    Noise,
+    noise,
+    stepped,
+    uncovered,
+    within,
+)
+from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
-from bondgraph.runtime.diagnosis.standing import Levels, apart, followed
+from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart, followed
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
 from bondgraph.runtime.log import Array, Mask
@@ -122,14 +130,16 @@ def tune(
 class _Noise(NamedTuple):
     """Of one log: how many valid samples, by residual the upward crossings of its mean, the level
     that one sample in a thousand exceeds beside it, the largest excess over the threshold to either
-    side; the rows, those of the warm-up too, and what is left of the others beside parameters and
-    is not covered by tolerances, and of their averages; the largest threshold."""
+    side; the rows, those of the warm-up too, with how far samples of each are above the threshold
+    and below it at most, and what is left of the others beside parameters and is not covered by
+    tolerances, and of their averages; the largest threshold."""
 
     rows: int
     crossings: Array
     tail: Array
     excess: Array
     every: tuple[Row, ...]
+    peaks: tuple[Array, ...]
     rest: Array
     averages: Array
     bound: Array
@@ -221,18 +231,20 @@ class _Work:
         if len(samples) <= start + self.every:
             return None
         history = History(self.spread)
-        first = next(self._chunks(samples[start:], samples[:start]))[0].value
-        rough = np.std(np.diff(first[:: self.every], axis=0), axis=0)
+        whole = next(self._chunks(samples[start:], samples[:start]))[0].value
+        rough = np.std(np.diff(whole[:: self.every], axis=0), axis=0)
         weight = 1.0 / np.maximum(rough, self.least + _NOTHING) ** 2
-        every = []
+        every, peaks = [], []
         for batch, slopes, doubt in self._chunks(samples[start:], samples[:start]):
-            for k, row in self._rows(batch, slopes, doubt):
+            for k, row, peak in self._rows(batch, slopes, doubt):
                 history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
                 every.append(row)
+                peaks.append(peak)
         found = history.fit()
         # a residual with fewer stages than others is watched while these warm up
         early = list(self._chunks(samples[:start], samples[:0]))
         excess = [_beyond(chunk[0]) for chunk in early]
+        first = [own for chunk in early for own in self._rows(*chunk)]
         rest, spaced = [], []
         rows = sum(int(batch.valid.all(axis=1).sum()) for batch, _, _ in early)
         bound = np.zeros(len(self.engine.residuals))
@@ -250,21 +262,24 @@ class _Work:
             ((off[:-1] < 0) & (off[1:] >= 0)).sum(axis=0).astype(float),
             np.quantile(np.abs(off), 0.999, axis=0),
             np.max(excess, axis=0),
-            (*(row for chunk in early for _, row in self._rows(*chunk)), *every),
+            (*(row for _, row, _ in first), *every),
+            (*(peak for *_, peak in first), *peaks),
             uncovered(np.concatenate(spaced), np.array([row.bound for row in every])),
             _averages(every, found),
             bound,
         )
 
-    def _rows(self, batch: Batch, slopes: Array, doubt: Array) -> Iterator[tuple[int, Row]]:
-        """The rows of a chunk, each with the number of its sample."""
+    def _rows(
+        self, batch: Batch, slopes: Array, doubt: Array
+    ) -> Iterator[tuple[int, Row, Array]]:
+        """The rows of a chunk, each with the number of its sample, and how far its samples go."""
         for k in range(self.every - 1, len(slopes), self.every):
             own = [x[k] for x in (*batch, doubt, slopes)]
             block = slice(k + 1 - self.every, k + 1)
             value, valid, bound = batch.value[block], batch.valid[block], batch.bound[block]
             mean = averaged(value, valid, bound, doubt[block], slopes[block])
             row = Row(0.0, np.empty((0, len(self.engine.signals))), self.engine, *own)
-            yield k, row._replace(average=mean)
+            yield k, row._replace(average=mean), _beyond(Batch(value, valid, bound))
 
     def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array, Array]]:
         """Residuals, slopes of what is tolerated, and doubt, some thousand samples at a time."""
@@ -417,8 +432,7 @@ def _limits(
             level = max(asked, _ABOVE * max(top, bottom) / sigma)
             limit = Limit(sigma, rate, level, NEVER.height, walk=float(work.walk[k]))
         else:
-            level = max(asked, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
-            limit = Limit(sigma, rate, level, height(often, alarms), own.mean, own.memory)
+            limit = Limit(sigma, rate, asked, height(often, alarms), own.mean, own.memory)
             # what a single sample reached says nothing of the noise of averages
             mean = lasting(averages[:, k], 0.0, stands[k], asked)
             if math.isfinite(mean.unit):
@@ -426,14 +440,40 @@ def _limits(
                 unit = mean.unit * sigma / max(own.foreseen(asked), least)
                 unit = max(unit, least * (1.0 + float(mean.weights.sum())))
                 limit = Limit(*limit[:6], unit, off, *mean.weights.tolist())
-            path = _path(logs, k, limit.unit > 0.0)
-            limit = limit._replace(
-                memory=max(path.less**2 * limit.memory, min(limit.memory, 1.0)),
-                unit=limit.unit * path.less, step=path.step, most=path.most,
-            )
+            limit = _beside_its_level(limit, own, logs, k, least)
+            if not limit.step:
+                most = _ABOVE * max(top - own.mean, bottom + own.mean) / sigma
+                limit = limit._replace(kappa=max(asked, most))
         held = float(work.held[k]) if work.free[k] else 0.0
         found[engine.residuals[k]] = limit._replace(held=held, apart=float(far[k]))
     return _higher(found, engine.residuals, logs, work.spread)
+
+
+def _beside_its_level(
+    limit: Limit, own: Noise, logs: Sequence[_Noise], k: int, least: float
+) -> Limit:
+    """The limit of a residual whose noise is its `own` about a mean, as its level is followed.
+
+    Beside that as many rows are independent as there are. Tails are as much longer than those of
+    normal noise as they are about the mean. How far samples go is seen with `_higher`.
+    """
+    rows = _path(logs, k, lasts=False)
+    path = _path(logs, k, lasts=True) if limit.unit > 0.0 else rows
+    if not (path.step > 0.0 and rows.alone > 0.0):
+        return limit
+    beside = own._replace(sigma=rows.alone, memory=0.0, freedom=max(own.rows - 2.0, 1.0))
+    wider = limit.sigma / own.foreseen(limit.kappa)
+    sigma = min(max(wider * beside.foreseen(limit.kappa), least), limit.sigma)
+    memory = (rows.lasting(own.sigma * math.sqrt(own.memory), FILTERED) / rows.alone) ** 2
+    added = 1.0 + limit.before1 + limit.before2 + limit.before3 + limit.before4
+    unit = added * wider * path.lasting(limit.unit / (added * wider), WHITE)
+    return limit._replace(
+        sigma=sigma,
+        memory=max(memory, min(own.memory, 1.0)),
+        unit=max(unit, min(least * added, limit.unit)),
+        step=path.step,
+        most=path.most,
+    )
 
 
 def _path(logs: Sequence[_Noise], k: int, lasts: bool) -> Wander:
@@ -469,16 +509,19 @@ def _beside_their_own(
 def _higher(
     found: Mapping[str, Limit], residuals: Sequence[str], logs: Sequence[_Noise], spread: Array
 ) -> dict[str, Limit]:
-    """The same with heights above what the sums of healthy machines, watched so, come to."""
+    """The same above what samples of healthy machines, watched so, and their sums come to."""
     own = np.array(limits(found, residuals), dtype=float)
     cusum, sure = Cusum(len(own), healthy=True), np.ones(len(own), dtype=bool)
+    most, goes = np.zeros((2, len(own)))
     for log in logs:
         history, levels = History(spread), Levels.tuned(own)
         cusum.restart()
         waiting: deque[Row] = deque()
         mean = own[:, 4].copy()
+        path = []
         for number, one in enumerate(log.every):
             row = _where_it_stands(one, number, mean, levels.unsure)
+            most = np.maximum(most, levels.deviations(log.peaks[number] - [mean, -mean], own))
             new = history.innovation(row, sure)
             levels.ahead(alarmed=False)
             cusum.add(new, own)
@@ -491,9 +534,27 @@ def _higher(
             mean += moved
             for later in waiting:
                 later.lower(moved)
+            if number >= FIRST:
+                path.append((mean.copy(), levels.unsure))
         cusum.end()
+        goes = np.maximum(goes, _farthest(path) if path else 0.0)
     heights = dict(zip(residuals, cusum.heights(own[:, 3]).max(axis=0).tolist(), strict=True))
-    return {name: limit._replace(height=heights[name]) for name, limit in found.items()}
+    far = dict(zip(residuals, (_ABOVE * np.stack([most, goes]).T).tolist(), strict=True))
+    return {
+        name: limit._replace(
+            kappa=max(limit.kappa, far[name][0]) if limit.step else limit.kappa,
+            height=heights[name],
+            goes=far[name][1] if limit.step else 0.0,
+        )
+        for name, limit in found.items()
+    }
+
+
+def _farthest(path: Sequence[tuple[Array, Array]]) -> Array:
+    """How far levels (rows, residuals) surely went from their mean, each as sure as it is."""
+    level, unsure = (np.array(x) for x in zip(*path, strict=True))
+    off = np.abs(level - level.mean(axis=0))
+    return np.asarray(np.where(off > unsure, off, 0.0).max(axis=0))
 
 
 def _where_it_stands(row: Row, number: int, mean: Array, unsure: Array) -> Row:

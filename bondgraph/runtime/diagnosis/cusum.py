@@ -145,8 +145,8 @@ def squared(memory: Any) -> Any:
 def on_board(limit: Limit, bound: float = 0.0) -> ResidualLimit:
     """The limit as code has it that has no history: what it multiplies with, once and for all.
 
-    `bound` is the largest adaptive threshold. It has room for where a machine may stand, too: code
-    on board does not learn where this one does.
+    `bound` is the largest adaptive threshold. It has room for where a machine may stand, too, and
+    for how far it goes from there: code on board does not learn where this one does.
 
     >>> on_board(Limit(sigma=0.2, crossings=10.0, kappa=4.5, height=9.3))[:3]
     (0.0, 0.9, 5.0)
@@ -155,7 +155,7 @@ def on_board(limit: Limit, bound: float = 0.0) -> ResidualLimit:
     squares = squared(memory)
     unit = 1.0 / (sigma * math.sqrt(memory))
     loud = _SQUARE / (squares * sigma**2)
-    far = bound + UNKNOWN * limit.apart
+    far = bound + UNKNOWN * limit.apart + limit.goes
     return ResidualLimit(
         limit.mean, limit.kappa * sigma, unit, loud, _LOUD / squares, limit.height, far
     )

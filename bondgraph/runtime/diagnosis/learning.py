@@ -12,8 +12,16 @@ import numpy as np
 from bondgraph.runtime.diagnosis.driving import Driving
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
-from bondgraph.runtime.diagnosis.noise import CAREFUL, Noise, noise, stepped, uncovered, within
-from bondgraph.runtime.diagnosis.row_averages import lasting
+from bondgraph.runtime.diagnosis.noise import (
+    CAREFUL,
+    FILTERED,
+    Noise,
+    noise,
+    stepped,
+    uncovered,
+    within,
+)
+from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Part, Row, variances
 from bondgraph.runtime.diagnosis.standing import Levels
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
@@ -345,32 +353,36 @@ class Learning:
             own = np.where(np.isfinite(values), average[:, k], math.nan)
             wider = self.limits[k, 0] / spread if spread > 0.0 else 1.0
             self.limits[k, 6:12] = self._averages(k, own, float(owed[k]), found.mean, wider)
-            self._walk(k, values, own, found, stood, _ABOVE * highest)
+            self._walk(k, values, own, found, stood, _ABOVE * highest, wider)
         return unknown
 
     def _walk(
-        self, k: int, values: Array, averages: Array, found: Noise, stood: float, least: float
+        self, k: int, values: Array, averages: Array, found: Noise, stood: float, least: float,
+        wider: float,
     ) -> None:
         """How the level of a residual wanders, and what noise there is beside that.
 
         By the averages of rows where these are known, else by rows. Sums reckon with no more noise,
         nor do samples: beside its level as many rows are independent as there are, where noise of a
         long memory has few. `stood` is where it was taken to stand before, `least` the noise that
-        samples have shown.
+        samples have shown: so much `wider` than rows show is what is taken for it.
         """
         lasts, further = bool(self.limits[k, 6] > 0.0), self._further(k)
         path = wander(averages if lasts else values)
         mean = self.levels.begin(k, path, stood, found.mean + further, found.rows)
         self.limits[k, 4] = mean - further
-        sigma = (wander(values) if lasts else path).alone or found.sigma
+        rows = wander(values) if lasts else path
+        sigma = rows.alone or found.sigma
         beside = Noise(0.0, sigma, 0.0, found.rows - 2.0, found.rows)
         if path.step > 0.0:
             most = beside.foreseen(float(self.limits[k, 2]))
             most = max(most, least, float(self._least(sigma)[k]))
             self.limits[k, 0] = min(self.limits[k, 0], most)
-        memory = path.less**2 * found.memory * (found.sigma / sigma) ** 2 if sigma else 0.0
+        adds = rows.lasting(found.sigma * math.sqrt(found.memory), FILTERED)
+        memory = (adds / sigma) ** 2 if sigma else 0.0
         self.limits[k, 5] = max(memory, min(found.memory, 1.0))
-        self.limits[k, 6] *= path.less
+        added = wider * (1.0 + self.limits[k, 8:12].sum())
+        self.limits[k, 6] = added * path.lasting(self.limits[k, 6] / added, WHITE)
 
     def _further(self, k: int) -> float:
         """By how much averages of rows stand above the mean, where they tell the level."""

@@ -13,7 +13,7 @@ _LONGEST = 8  # rows that an autoregression looks back
 _EACH = 6  # rows that there have to be for each of its numbers
 #: Of white noise behind a filter of third order, three time constants apart (Matern): the sum of
 #: its correlations and that of their squares. No noise of a residual has less of a memory.
-_FILTERED, _SQUARED = 2.0, 1.25
+FILTERED, _SQUARED = 2.0, 1.25
 _SLOW = 5  # rows in the mean of which noise is small
 COVERED = 0.1
 _FAR = 6.0 * 1.4826  # times the median distance from the median: six normal deviations
@@ -55,7 +55,7 @@ class Noise(NamedTuple):
 
 
 def noise(
-    values: Array, owed: float = 0.0, centred: bool = True, least: float = _FILTERED
+    values: Array, owed: float = 0.0, centred: bool = True, least: float = FILTERED
 ) -> Noise:
     """What rows (n,) of a healthy residual tell, NaN where it had no value.
 
@@ -74,12 +74,12 @@ def noise(
     known = within(values[:, None])[:, 0]
     count = int(known.sum())
     if not count:
-        return Noise(0.0, math.inf, _FILTERED, _LEAST, 0)
+        return Noise(0.0, math.inf, FILTERED, _LEAST, 0)
     mean = float(values[known].mean()) if centred else 0.0
     rest = np.where(known, values - mean, 0.0)
     variance = float(np.square(rest).sum()) / count
     if not variance > 0.0:
-        return Noise(mean, 0.0, _FILTERED, _LEAST, count)
+        return Noise(mean, 0.0, FILTERED, _LEAST, count)
     coefficients = _autoregression(rest, known, variance)
     memory, squared = _memories(coefficients, least)
     lost = owed + (memory if centred else 0.0)

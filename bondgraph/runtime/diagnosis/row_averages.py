@@ -19,7 +19,7 @@ LAGS = 4  #: rows before one that are added to it at most
 _EACH = 6  # rows that there have to be for each of its weights
 #: Of white noise behind a filter of third order: the sum of the correlations between averages of
 #: three time constants. What a residual differentiates has less.
-_WHITE = 2.135
+WHITE = 2.135
 _SURE = 2.0  # deviations of a correlation that few rows show
 
 
@@ -65,7 +65,7 @@ def lasting(values: Array, owed: float, centred: bool, kappa: float) -> Lasting:
         return Lasting(mean, weights, math.inf)
     next_ = float(added[1:][both] @ added[:-1][both]) / size
     most = min(next_ + _SURE / math.sqrt(pairs), 0.9)
-    least = min(max((1.0 + most) / (1.0 - most), 1.0), _WHITE)
+    least = min(max((1.0 + most) / (1.0 - most), 1.0), WHITE)
     found = noise(added, owed, centred, least)
     return Lasting(mean, weights, found.foreseen(kappa) * math.sqrt(found.memory))
 

@@ -88,6 +88,17 @@ class Levels:
         unsure = np.where(self._rows < FIRST, 0.0, self.unsure)
         return _line(limits, unsure / UNKNOWN) - unsure
 
+    def deviations(self, excess: Array, limits: Array) -> Array:
+        """How far samples are off in deviations, of an `excess` over their bounds, (2, residuals).
+
+        To either side; their level is not known for sure, and has a room before rows have told.
+        """
+        known = np.isfinite(limits[:, 0])
+        begins = self._rows < FIRST
+        unsure = np.where(begins, 0.0, self.unsure / UNKNOWN)
+        deviation = np.where(known, np.hypot(limits[:, 0], unsure), math.inf)
+        return (excess.max(axis=0) - np.where(begins, self._room, 0.0)) / deviation
+
     def ahead(self, alarmed: bool) -> None:
         """A row passes. An alarm is what a walk makes, too: while it lasts there is one."""
         more = (self._most if alarmed else self._step) ** 2

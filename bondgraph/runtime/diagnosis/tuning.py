@@ -19,7 +19,8 @@ _MOST = 1e100  # of any number: its square is one, too
 _LEAST = {"sigma": 1 / _MOST, "crossings": 0.0, "kappa": 0.0, "height": 0.0, "mean": -_MOST,
           "memory": 1 / _MOST, "unit": 0.0, "stands": -_MOST, "before1": 0.0, "before2": 0.0,
           "before3": 0.0, "before4": 0.0, "walk": 0.0,
-          "held": 0.0, "apart": 0.0, "step": 0.0, "most": 0.0}  # fmt: skip
+          "held": 0.0, "apart": 0.0, "step": 0.0, "most": 0.0,
+          "goes": 0.0}  # fmt: skip
 _SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filter may be, rad
 UNKNOWN = 2.0  #: deviations of what is not known yet of a healthy machine, for which there is room
 FASTEST = 0.4  #: of the rate, rad: no filter has fewer samples to work with
@@ -58,6 +59,7 @@ class Limit(NamedTuple):
     apart: float = 0.0
     step: float = 0.0
     most: float = 0.0
+    goes: float = 0.0
 
 
 class Tuning(NamedTuple):

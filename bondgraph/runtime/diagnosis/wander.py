@@ -38,6 +38,16 @@ class Wander(NamedTuple):
     less: float
     alone: float
 
+    def lasting(self, deviation: float, white: float) -> float:
+        """How noise adds up beside the level, that does with this deviation about a mean.
+
+        About a mean a walk is noise with a memory as long as the rows. What adds up beside the
+        level is no more than rows show there, nor less than `white` noise: a variance, of rows
+        whose own is 1, behind the filter.
+        """
+        most = max(self.noise, math.sqrt(white) * self.alone) or math.inf
+        return min(self.less * deviation, most)
+
 
 NONE = Wander(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)  #: of rows that tell nothing
 

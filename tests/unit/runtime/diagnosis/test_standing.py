@@ -116,8 +116,8 @@ def test_of_a_fault_that_lasts_less_and_less_is_beside_the_level_that_is_followe
 
 
 def test_code_that_learns_nothing_has_room_for_all_places() -> None:
-    plain, stray = Limit(1.0, 1.0, 4.0, 9.0), Limit(1.0, 1.0, 4.0, 9.0, apart=3.0)
-    assert on_board(stray, 0.5) == on_board(plain, 0.5)._replace(bound=0.5 + UNKNOWN * 3.0)
+    plain, stray = Limit(1.0, 1.0, 4.0, 9.0), Limit(1.0, 1.0, 4.0, 9.0, apart=3.0, goes=0.7)
+    assert on_board(stray, 0.5) == on_board(plain, 0.5)._replace(bound=0.5 + UNKNOWN * 3.0 + 0.7)
 
 
 def _run(seed: int, leak: float = 0.0, rows: int = 1500) -> Array:

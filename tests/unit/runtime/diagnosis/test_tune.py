@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy import stats
+from scipy.signal import lfilter
 
 from bondgraph.compile_options import Options
 from bondgraph.ir.residual_limit import ShownSize
@@ -22,6 +23,7 @@ from bondgraph.runtime.diagnosis.calibration import Tuned, _by_fault, _Seen, _sh
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.rows import to_row_ends
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
+from bondgraph.runtime.log import Array
 from bondgraph.text.source import Source
 
 _R, _I, _NOISE = 2.0, 3.0, 0.01
@@ -229,8 +231,8 @@ def test_a_limit_stays_above_what_a_healthy_machine_has_reached(first: bool) -> 
     logs = [pulse, quiet] if first else [quiet, pulse]
     limit = tune(engine, model().diagnosis_model, logs, "digest", 2.0, _WINDOW).tuning.limits["r1"]
     reached = np.abs(engine.configured().run(pulse).value - limit.mean).max()
-    # each log is beside where it stands itself
-    assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached, rel=1e-3)
+    # each log is beside where it stands itself, which is not known for sure
+    assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached, rel=1e-2)
 
 
 def test_what_is_watched_before_all_are_warm_counts() -> None:
@@ -261,7 +263,8 @@ model M {
     )
     reached = np.abs(batch.value[:, 0] - limit.mean)[batch.valid[:, 0]].max()
     assert reached > 10.0 * np.abs(batch.value[first[1] :, 0]).max()
-    assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached)
+    # beside where its level stands, which is not known for sure
+    assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached, rel=1e-2)
     # beside that the averages of rows are what they are without the jump
     assert limit.unit / limit.sigma == pytest.approx(usual.unit / usual.sigma, rel=0.1)
 
@@ -290,6 +293,34 @@ def test_sums_of_a_healthy_machine_count_however_high_they_are(begin: int) -> No
     said = watch.update(np.arange(_COUNT) * _STEP, own.run(log), log)
     assert [v for v in said if v.event == "warm-up"]
     assert not [v for v in said if v.event == "fault"]
+
+
+def _wandering(seed: int, fault: float = 0.0) -> Array:
+    """A current that wanders by as much as its noise, for seconds; behind 6 s it is off."""
+    draw, kept = np.random.default_rng(seed), math.exp(-_STEP / 3.0)
+    current = _I + draw.normal(0.0, _NOISE, _COUNT)
+    steps = draw.normal(0.0, _NOISE * math.sqrt(1.0 - kept**2), _COUNT)
+    current += lfilter([1.0], [1.0, -kept], steps, zi=[kept * _NOISE * draw.normal()])[0]
+    current[6000:] += fault
+    return np.column_stack([np.full(_COUNT, _R * _I), current])
+
+
+def test_where_a_level_wanders_noise_is_beside_that_in_a_tuning_too() -> None:
+    """Behind the filter noise has 0.002 V, and what wanders ten times that: a fault has 0.1 V."""
+    engine, digest = model().engine(native=False), model().program.digest
+    logs = [_wandering(seed) for seed in range(3)]
+    tuning = tune(engine, model().diagnosis_model, logs, digest, 2.0, _WINDOW).tuning
+    limit = tuning.limits["r1"]
+    assert limit.kappa * limit.sigma < 2.5 * _R * _NOISE
+    assert limit.goes > 0.5 * _R * _NOISE  # there is room for that where nobody follows
+    watching = model().tuned(tuning)
+    for fault, seeds in ((0.0, range(3, 7)), (5.0 * _NOISE, range(10, 13))):
+        for seed in seeds:
+            own, log = watching.engine(native=False), _wandering(seed, fault)
+            watch = watching.diagnosis(own, tuning)
+            said = watch.update(np.arange(_COUNT) * _STEP, own.run(log), log)
+            alarms = [v.time for v in said if v.event == "fault"]
+            assert [6.0 < at < 6.2 for at in alarms] == [True] * bool(fault)
 
 
 @pytest.mark.parametrize("tunes", [True, False])
