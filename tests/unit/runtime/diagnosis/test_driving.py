@@ -63,9 +63,14 @@ def _watched(machine: Compilation, samples: Array) -> list[Verdict]:
 @pytest.mark.parametrize("seed", range(5))
 def test_a_machine_that_idled_is_learned_anew_when_it_works(seed: int) -> None:
     said = _watched(_machine(), _samples(seed))
-    assert [v for v in said if v.event == "fault"] == []
     (anew,) = [v for v in said if "driven as never before" in v.message]
     assert 585.0 <= anew.time <= 630.0
+
+
+def test_a_machine_that_idled_is_in_alarm_less_than_once_an_hour() -> None:
+    said = [v for seed in range(20) for v in _watched(_machine(), _samples(seed))]
+    # in 13.3 hours: with eight it might be one an hour or more, at 95 %
+    assert sum(v.event == "fault" for v in said) <= 7
 
 
 def test_a_fault_of_a_machine_that_works_is_seen() -> None:
