@@ -42,6 +42,8 @@ def cleared(pool: Pool, expr: Expr, bases: Iterable[Expr], inside: bool = True) 
     U*m - y
     >>> cleared(p, p.sub(U, p.der(p.div(y, m))), [m])
     U*m^2 - (m*D(y) - y*D(m))
+    >>> cleared(p, p.sub(p.div(U, p.sub(m, p.div(U, y))), m), [p.sub(m, p.div(U, y)), y])
+    U*y - m*(y*m - U)
     >>> cleared(p, p.sub(p.div(U, m), p.der(p.div(y, m))), [m], inside=False)
     U - m*D(y/m)
     """
@@ -91,8 +93,8 @@ class _Fractions:
         below: Denominator = {}
         for arg, exponent in node.factors:
             upper, lower = self.parts.get(arg, (arg, {}))
-            if arg in self.bases:
-                lower = {arg: -1}
+            if arg in self.bases:  # which may be a fraction itself
+                lower = {**lower, upper: lower.get(upper, 0) - 1}
             else:
                 factors.append(self.pool.power(upper, exponent))
             for base, power in lower.items():

@@ -31,16 +31,26 @@ def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
         equation = step.equation
         kind = system.graph.nodes[equation.node].kind if equation.node >= 0 else ""
         if step.how == "loop":
-            top.update(dict.fromkeys(divisors([step.closed])))
+            top.update(dict.fromkeys(_fresh(step.closed, seen)))
         elif equation.kind == "balance" or kind in ("TF", "GY"):
-            nodes = topological([step.value], stop=seen.__contains__)
-            own = divisors(n for n in nodes if n not in seen)
+            own = _fresh(step.value, seen)
             if own:  # what is written is no work of the elimination
                 written = {*divisors(topological([equation.zero]))}
                 inside.update(dict.fromkeys(d for d in own if d not in written))
-            seen.update(nodes)
     values = {s.variable: s.closed for s in steps}
+    if top:  # of a loop no law that it rests on, either
+        laws = divisors(topological([s.equation.zero for s in steps]))
+        for base in pool.substitute(laws, values):
+            top.pop(base, None)
     return _moving([*top, *pool.substitute(inside, values)])
+
+
+def _fresh(value: Expr, seen: set[Expr]) -> list[Expr]:
+    """What a value divides by, in nodes that were not seen before."""
+    nodes = topological([value], stop=seen.__contains__)
+    own = divisors(n for n in nodes if n not in seen)
+    seen.update(nodes)
+    return own
 
 
 def signals_below(expr: Expr) -> list[Expr]:

@@ -97,7 +97,7 @@ class Levels:
         begins = self._rows < FIRST
         unsure = np.where(begins, 0.0, self.unsure / UNKNOWN)
         deviation = np.where(known, np.hypot(limits[:, 0], unsure), math.inf)
-        return (excess.max(axis=0) - np.where(begins, self._room, 0.0)) / deviation
+        return np.asarray((excess.max(axis=0) - np.where(begins, self._room, 0.0)) / deviation)
 
     def ahead(self, alarmed: bool) -> None:
         """A row passes. An alarm is what a walk makes, too: while it lasts there is one."""
