@@ -85,12 +85,12 @@ class _Topics(Reader):
                 continue
             topic = channel.topic
             try:
-                found = decode(message.data)
+                found = self._numbers(decode(message.data), "")
+                fields = {f"{topic}{path}": x for path, x in found}
             except Exception as error:  # of any library, for bytes that are not what they claim
                 kind, name = channel.message_encoding, type(error).__name__
                 text = f"a message of {topic} is no {kind}: {name}: {error}"
                 raise LogError(self.form.name, None, text, "record it anew") from error
-            fields = {f"{topic}{path}": x for path, x in self._numbers(found, "")}
             if self._name in _CLOCKS:
                 clock: float | None = getattr(message, self._name)
             else:
@@ -115,7 +115,7 @@ class _Topics(Reader):
     def _numbers(self, value: object, path: str) -> Iterator[tuple[str, float]]:
         """The numbers in a message, each with the path that leads to it; times in s."""
         if isinstance(value, bool | int | float):
-            yield path, value
+            yield path, float(value)
         elif isinstance(value, str | bytes | bytearray | memoryview) or value is None:
             return
         elif isinstance(value, Iterable) and not isinstance(value, Mapping):
@@ -138,7 +138,8 @@ class _Topics(Reader):
         """What makes objects of the messages of a channel; None for those that are left out."""
         topic, encoding = channel.topic, channel.message_encoding
         wanted = self.form.wanted
-        if wanted and not any(name.startswith(f"{topic}.") for name in wanted):
+        fields = f"{topic}.", f"{topic}["
+        if wanted and not any(name == topic or name.startswith(fields) for name in wanted):
             return None
         if encoding == "json":
             return json.loads

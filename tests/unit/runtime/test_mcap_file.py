@@ -173,6 +173,8 @@ def test_without_the_package_that_decodes_them_topics_are_left_out_and_named(
     ("messages", "options", "said"),
     [
         ([("/a", 0, b"{")], {}, "a message of /a is no json: JSONDecodeError"),
+        ([("/a", 0, {"x": 10**400})], {}, "a message of /a is no json: OverflowError"),
+        ([("/a", 0, b"[" * 900 + b"]" * 900)], {}, "is no json|no message with numbers"),
         ([("/a", 0, {"name": "x"})], {}, "no message with numbers"),
         ([("/a", 0, {"x": 1.0})], {"time": "stamp"}, r"without stamp\); --time is log_time or"),
         ([("/a", 0, {f"x{k}": 1.0 for k in range(100_001)})], {}, "more than .*; name in a map"),
@@ -252,12 +254,12 @@ def test_a_recording_is_watched_as_the_table_of_its_samples_is(
 def test_only_topics_that_the_map_names_are_read(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    slow = [("/motor", k * 2 * _MS, dict.fromkeys("abcd", 0.0)) for k in range(3000)]
+    slow = [("arm.motor", k * 2 * _MS, dict.fromkeys("abcd", 0.0)) for k in range(3000)]
     fast = [("/imu", k * _MS // 4, {"x": 1.0}) for k in range(24_000)]
     path = _json(tmp_path / "run.mcap", sorted(slow + fast, key=lambda m: m[1]))
     columns = tmp_path / "map.toml"
     names = zip(("U", "load", "current", "speed"), "abcd", strict=True)
-    columns.write_text("".join(f'{signal} = "/motor.{name}"\n' for signal, name in names))
+    columns.write_text("".join(f'{signal} = "arm.motor.{name}"\n' for signal, name in names))
     said = _watched(path, "--map", str(columns), capsys=capsys)
     assert " at 500 samples a second" in said[0]["message"]
     assert "after 3000 samples" in said[-1]["message"]
