@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, topological
 
+_POWER = 4  # up to which a power of a sum is multiplied out here
+
 
 def terms_written_out(expr: Expr) -> int:
     """About how many terms the sum has; like terms that would be collected are counted apart.
@@ -52,8 +54,6 @@ def _terms(node: Expr, args: list[list[int]], order: int) -> list[int]:
         return found
     return _function(args, order)
 
-
-_POWER = 4  # up to which a power of a sum is multiplied out here
 
 
 def _function(args: list[list[int]], order: int) -> list[int]:

@@ -71,7 +71,7 @@ def run(args: Namespace) -> int:
     if args.plot and find_spec("matplotlib") is None:
         raise Trouble("--plot needs matplotlib: pip install 'bondgraph-arr[robot]'")
     logs = read_logs(args)
-    rate = args.rate or rate_of(logs[0][1].beat()) or Options().rate
+    rate = args.rate or rate_of(logs[0][1].fastest()) or Options().rate
     compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
     something_to_watch(compilation)
     engine = engine_of(compilation)

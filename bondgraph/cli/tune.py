@@ -154,7 +154,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, 
                 progress((k + 1) / args.runs)
     else:
         read = read_logs(args)
-        rate = args.rate or rate_of(read[0][1].beat()) or Options().rate
+        rate = args.rate or rate_of(read[0][1].fastest()) or Options().rate
         compilation = realising(args, rate=rate)
     something_to_watch(compilation)
     engine = engine_of(compilation)

@@ -59,13 +59,13 @@ class Log(NamedTuple):
         """How many samples there are."""
         return len(self.time)
 
-    def beat(self) -> Array:
+    def fastest(self) -> Array:
         """The times at which the signal that is sampled most has samples.
 
         Signals that come at moments of their own make rows between those of others.
 
         >>> half = np.array([1.0, np.nan, 1.0, np.nan])
-        >>> Log(np.arange(4.0), {"half": half, "other": half[::-1]}, {}, {}).beat()
+        >>> Log(np.arange(4.0), {"half": half, "other": half[::-1]}, {}, {}).fastest()
         array([0., 2.])
         """
         there = [~np.isnan(column) for column in self.columns.values()]

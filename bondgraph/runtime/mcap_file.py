@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -95,8 +96,8 @@ class _Topics(Reader):
                 clock: float | None = getattr(message, self._name)
             else:
                 clock = fields.get(f"{topic}.{self._name}", fields.get(self._name))
-            if clock is None:
-                self._left[topic] = f"without {self._name}"
+            if clock is None or math.isnan(clock):
+                self._left[topic] = f"messages without {self._name}"
             else:
                 self._row(clock, fields)
 

@@ -158,7 +158,7 @@ class Pace:
         if self._times is None:
             return
         self._unit = log.meta.get(TIME_UNIT, "s")
-        self._times += log.beat()[: 64 * _STEPS].tolist()
+        self._times += log.fastest()[: 64 * _STEPS].tolist()
         steps = np.diff([t for t in self._times if t == t])
         steps = steps[steps > 0.0]
         if len(steps) < _STEPS:

@@ -89,7 +89,8 @@ class _Replay:
         try:
             if terms_written_out(self.residual.expr) > _TERMS:
                 raise Unshown(
-                    f"with its derivatives taken the relation has more than {_TERMS:,} terms"
+                    f"with its derivatives taken the relation has more than {_TERMS:,} terms,"
+                    " before like ones are collected"
                 )
             arr = self._there(own.sympy(self.residual.expr))
             for step in self._in_order():

@@ -18,9 +18,10 @@ from bondgraph.ir.residuals import Step
 
 
 def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
-    """The moduli of two-ports that some step divides by, in known signals.
+    """The moduli of two-ports that some step divides by, in known signals, and what a loop does.
 
-    They stand in the law of a two-port or, where it modulates another one, in a balance or a loop.
+    Moduli stand in the law of a two-port or, where it modulates another one, in a balance. What a
+    law itself has below a stroke is none.
     Constant ones are left out: a transformer whose ratio is zero is none.
     """
     pool = system.graph.pool

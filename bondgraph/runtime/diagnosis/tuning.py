@@ -39,7 +39,8 @@ class Limit(NamedTuple):
     adds up readings for ever walks away, in a row by the deviation `walk`. What half a sample of
     the commands makes (see `Doubt`) was `held` at most in the logs that the noise is from. These
     stand `apart` by such a deviation (see `Levels`): noise is beside where each stands. That moves
-    in a row by the deviation `step`, by `most` if it surely does (see `Wander`).
+    in a row by the deviation `step`, by `most` if it surely does (see `Wander`), and surely `goes`
+    so far in a log at most: room for that has who does not follow it.
     """
 
     sigma: float

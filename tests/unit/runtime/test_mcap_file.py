@@ -89,7 +89,7 @@ def test_the_time_may_be_that_of_the_publisher_or_in_the_messages(tmp_path: Path
     log = read_log(path, time="header.stamp")
     assert _seconds(log) == [0.002, 0.005]
     assert log.columns["/late.x"][1] == 5 and math.isnan(log.columns["/late.x"][0])
-    assert log.meta["left-out"] == "/b (without header.stamp)"
+    assert log.meta["left-out"] == "/b (messages without header.stamp)"
     assert _seconds(read_log(path, time="/late.header.stamp")) == [0.005]
     numbers = _json(tmp_path / "n.mcap", [("/a", 0, {"ms": 5.0}), ("/a", 9, {"ms": 7.0})])
     assert read_log(numbers, time="ms", unit="ms").time.tolist() == [0.005, 0.007]
@@ -121,7 +121,7 @@ def test_messages_of_ros_2(tmp_path: Path) -> None:
 
 
 def test_messages_of_ros_1_and_protobuf(tmp_path: Path) -> None:
-    class Bool:
+    class Volts:
         """A message as the generator of ROS 1 makes them."""
 
         _type, _full_text, _md5sum = "std_msgs/Float64", "float64 data", "0"
@@ -136,7 +136,7 @@ def test_messages_of_ros_1_and_protobuf(tmp_path: Path) -> None:
     with open(one, "wb") as file:
         writer = Ros1Writer(file)
         for k in range(2):
-            writer.write_message("/volts", Bool(1.5 * k), _START + k * _MS, _START)
+            writer.write_message("/volts", Volts(1.5 * k), _START + k * _MS, _START)
         writer.finish()
     log = read_log(one)
     assert (_seconds(log), log.columns["/volts.data"].tolist()) == ([0.0, 0.001], [0.0, 1.5])

@@ -61,7 +61,7 @@ class LoadedLog(Source):
 
     def rate(self) -> float | None:
         """Samples a second, of the first ones."""
-        return rate_of(self._log.beat())
+        return rate_of(self._log.fastest())
 
     def samples(self) -> float | None:
         """See `Source`."""
@@ -126,7 +126,7 @@ class LinesFile(Source):
     def rate(self) -> float | None:
         """Samples a second, of the first ones."""
         first = self._first()
-        return rate_of(first.beat()) if first else None
+        return rate_of(first.fastest()) if first else None
 
     def samples(self) -> float | None:
         """As many as fit into the file, if all lines are as long as the first ones."""
