@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.diagnosis.calibration import Shown, Tuned
+    from bondgraph.runtime.diagnosis.calibration import Tuned
+    from bondgraph.runtime.diagnosis.shown_sizes import Shown
     from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.log import Array
     from bondgraph.runtime.monitoring.engine import Engine

@@ -6,7 +6,8 @@ import math
 from functools import cache
 from typing import NamedTuple
 
-from bondgraph.runtime.diagnosis.calibration import Shown, tune
+from bondgraph.runtime.diagnosis.calibration import tune
+from bondgraph.runtime.diagnosis.shown_sizes import Shown
 from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.simulation.scenario import Change, Fault
 from tests.campaign.machines import Machine, compiled, run

@@ -15,7 +15,8 @@ from typing import Any, NamedTuple
 
 from scipy.stats import chi2
 
-from bondgraph.runtime.diagnosis.calibration import Shown, Tuned
+from bondgraph.runtime.diagnosis.calibration import Tuned
+from bondgraph.runtime.diagnosis.shown_sizes import Shown
 from tests import measured
 from tests.robots import campaign
 from tests.robots.campaign import BUILT, ENCODERS, KINDS, ONSET, Kind, Robot, Seen

@@ -1,4 +1,4 @@
-"""From healthy samples and a wanted rate of false alarms to limits, delays and smallest faults."""
+"""From healthy samples and a wanted rate of false alarms to limits."""
 
 from __future__ import annotations
 
@@ -8,14 +8,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from bondgraph.ir.residual_limit import NEVER, ShownSize
+from bondgraph.ir.residual_limit import NEVER
 from bondgraph.runtime.diagnosis.cusum import Cusum
-from bondgraph.runtime.diagnosis.doubt import Doubt
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, slack, tolerated
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import (
     Bank,
-    Hypothesis,
     Sizes,
     hypotheses,
     rows_apart,
@@ -32,10 +30,12 @@ from bondgraph.runtime.diagnosis.noise import (
 )
 from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
-from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart, followed
-from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, Tuning, height, kappa, limits
+from bondgraph.runtime.diagnosis.shown_sizes import Shown, ShownSizes
+from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart
+from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
-from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.diagnosis.whole_thresholds import WholeThresholds
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
@@ -46,28 +46,6 @@ _ACCURACY = 1e-7  # of the terms of a residual: that of a simulation, and of flo
 _NOTHING = 1e-150  # of a residual that nothing moves
 _CHUNK = 5000  # samples at a time
 _APART = 16  # rows without a value between two logs, more than noise is taken to remember
-_SURE = 0.9  # share of the windows in which the smallest change shows
-_LEAST = 0.1  # that in which a change may show
-_TIMES = 20  # in a window, at which it is asked what shows so far
-
-
-class Shown(NamedTuple):
-    """What can be seen of one hypothesis: the smallest change that is sure to show.
-
-    `size` in the unit of the hypothesis (None: nothing moves), in nine windows of ten; `delay` is
-    the median time in s until it shows. `residual` is the one that shows it first most often. A
-    storage that becomes another one keeps what it holds, and what is measured of it jumps; where
-    nothing jumps, as of what comes on slowly, it takes a change of `smooth`. What shows at so many
-    times of the window, by a sample or by a sum of rows, is its `course`, infinite before anything
-    does.
-    """
-
-    hypothesis: Hypothesis
-    size: float | None
-    delay: float | None
-    residual: str
-    smooth: float | None = None
-    course: tuple[float, ...] = (math.inf,) * _TIMES
 
 
 class Tuned(NamedTuple):
@@ -90,9 +68,8 @@ def tune(
     """Limits for an engine, from `logs` of healthy machines: (n, signals) samples each.
 
     `false_alarms` wanted per hour; a fault is taken to be there for a `window` of seconds, and for
-    as long as the longest delay besides. Every
-    log may be of another machine, with parameters of its own inside their tolerances. Raises
-    ValueError where the logs are too short to be of use.
+    as long as the longest delay besides. Every log may be of another machine, with parameters of
+    its own inside their tolerances. Raises ValueError where the logs are too short to be of use.
     """
     work = _Work(engine, model, logs)
     window += engine.lags[-1]
@@ -111,20 +88,13 @@ def tune(
     tuning = Tuning(
         digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, found, bounds
     )
-    sizes: list[list[_Seen]] = [[] for _ in work.ways]
     rigid = np.array([bounds[name] for name in engine.residuals])
+    shows = ShownSizes(engine, model, work.all, found, window, rigid)
+    held = np.array([limit.held for limit in limits(found, engine.residuals)])
     for k, log in enumerate(logs):
-        for seen in work.windows(log, found, window, rigid):
-            for all_, one in zip(sizes, seen, strict=True):
-                all_.append(one)
+        shows.add(log, work.thresholds(held))
         progress((len(logs) + k + 1) / total)
-    by_fault = _by_fault([work.all[k] for k, _ in work.ways], sizes, engine.residuals)
-    every = [_shown(work.all[k], own, engine.residuals)
-             for (k, _), own in zip(work.ways, sizes, strict=True)]  # fmt: skip
-    count = len(work.all)
-    smooth = {k: one.size for (k, _), one in zip(work.ways[count:], every[count:], strict=True)}
-    shown = [one._replace(smooth=smooth.get(k, one.size)) for k, one in enumerate(every[:count])]
-    return Tuned(tuning._replace(shows=by_fault, window=window), tuple(shown), window)
+    return Tuned(tuning._replace(shows=shows.by_fault(), window=window), shows.shown(), window)
 
 
 class _Noise(NamedTuple):
@@ -145,34 +115,16 @@ class _Noise(NamedTuple):
     bound: Array
 
 
-class _Seen(NamedTuple):
-    """Of one window: the smallest change that shows, when, and in which residual; for each residual
-    the one that may show in it, and the one that does with a threshold that never moves; and what
-    shows so far, by sums too, in the `course` of the window.
-    """
-
-    size: float
-    delay: float
-    residual: int
-    least: Array
-    sure: Array
-    course: Array
-
-
 class _Work:
     def __init__(self, engine: Engine, model: DiagnosisModel, logs: Sequence[Array]) -> None:
         self.engine = engine
         self.model = model
-        self.nominal = model.nominal
         sizes = Sizes(engine)
         for log in logs:
             sizes.add(log)
         found = hypotheses(engine, model.faults, model.units, sizes.found())
         longest = max(logs, key=len, default=np.empty((0, len(engine.signals))))[:_CHUNK]
-        self.all = sized(engine, found, self.nominal, longest)
-        #: Numbers of hypotheses, each as what may jump; behind them those that need not.
-        self.ways = [(k, False) for k in range(len(self.all))]
-        self.ways += [(k, True) for k, h in enumerate(self.all) if h.fault in model.dynamic]
+        self.all = sized(engine, found, self.model.nominal, longest)
         self.tolerated, self.spread = tolerated(self.all, model)
         self.every = rows_apart(engine)
         self.least = _ACCURACY * self._terms(longest)
@@ -208,6 +160,10 @@ class _Work:
                 self.beside[k] = max(self.beside[k], CAREFUL * stepped(rows))
         return bool(self.walk.any())
 
+    def thresholds(self, held: Array) -> WholeThresholds:
+        """Those of a log that begins, where so much of what commands make is in the noise."""
+        return WholeThresholds(self.engine, self.model, self.tolerated, self.walk, held)
+
     def _parts(self, samples: Array) -> Iterator[Array]:
         """Whole rows of a log, some thousand samples at a time."""
         step = self.every * max(1, _CHUNK // self.every)
@@ -218,7 +174,7 @@ class _Work:
         """How much signals move each residual at most; counts are exact, however far they are."""
         counted = {k.path for k in self.engine.signals if k.counts is not None}
         gains = [h for h in self.all if h.kind == "gain" and h.fault not in counted]
-        moved = Bank(copied(self.engine), gains, self.nominal).run(samples)
+        moved = Bank(copied(self.engine), gains, self.model.nominal).run(samples)
         return np.asarray(np.abs(moved).max(axis=(0, 1), initial=0.0))
 
     def noise(self, samples: Array) -> _Noise | None:
@@ -283,108 +239,11 @@ class _Work:
 
     def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array, Array]]:
         """Residuals, slopes of what is tolerated, and doubt, some thousand samples at a time."""
-        whole = _Whole(self, self.free)
+        whole = self.thresholds(self.free)
         whole.run(before)
         for part in self._parts(samples):
             yield whole.run(part)
             self.held = np.maximum(self.held, whole.acted)
-
-    def windows(
-        self, samples: Array, known: Mapping[str, Limit], window: float, rigid: Array
-    ) -> Iterator[list[_Seen]]:
-        """For each window of the log, what of each hypothesis would show if it began there.
-
-        `rigid` are thresholds that never move, by residual.
-        """
-        own = limits(known, self.engine.residuals)
-        whole = _Whole(self, np.array([limit.held for limit in own]))
-        engine, table = whole.engine, np.array(own, dtype=float)
-        start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
-        length = max(2, round(window / self.engine.sample_time))
-        level = followed(table, -(-length // self.every), HEALTHY)
-        lasting = [self.all[k] for k, smooth in self.ways if smooth]
-        behind = self.engine.configured(bounds=False)  # where it was a warm-up ago
-        whole.run(samples[:start])
-        for begin in range(start, len(samples) - length + 1, length):
-            part = samples[begin : begin + length]
-            bank = Bank(copied(engine), self.all, self.nominal, samples[begin - 1])
-            slopes = bank.run(part)
-            if lasting:
-                past = Bank(copied(behind), lasting, self.nominal)
-                past.onset(past.run(samples[begin - start : begin], [start - 1])[0])
-                slopes = np.concatenate([slopes, past.run(part)], axis=1)
-                behind.run(samples[begin - start : begin - start + length])
-            batch, _, _ = whole.run(part)
-            yield [self._seen(self.all[k], slopes[:, at], batch, table, level, rigid)
-                   for at, (k, _) in enumerate(self.ways)]  # fmt: skip
-
-    def _seen(
-        self, hypothesis: Hypothesis, moved: Array, batch: Batch, own: Array,
-        level: tuple[Array, Array], rigid: Array,
-    ) -> _Seen:
-        slopes = np.abs(moved)
-        share = self.model.tolerances.get(hypothesis.fault, 0.0)
-        tolerated = share * abs(self.nominal.get(hypothesis.fault, 0.0)) * slopes
-        room = 2.0 * batch.bound - np.minimum(tolerated, batch.bound)
-        top = own[:, 2] * own[:, 0]
-        shows = batch.valid & np.isfinite(top)
-        least = _size(room + top, slopes, shows)
-        at, residual = np.unravel_index(int(np.argmin(least)), least.shape)
-        return _Seen(
-            float(least[at, residual]),
-            (int(at) + 1) * self.engine.sample_time,
-            int(residual),
-            least.min(axis=0),
-            _size(np.broadcast_to(2.0 * rigid + top, slopes.shape), slopes, shows).min(axis=0),
-            self._course(np.where(shows, moved, 0.0), room, own, level),
-        )
-
-    def _course(
-        self, moved: Array, room: Array, own: Array, level: tuple[Array, Array]
-    ) -> Array:
-        """The smallest change that has shown at each of so many times, by a sample or by a sum.
-
-        Both are beside a level that is followed (see `Levels` and `Cusum`).
-        """
-        count = len(moved) // self.every
-        deviation, share = (np.repeat(x, self.every, axis=0)[: len(moved)] for x in level)
-        beyond = own[:, 2] * np.hypot(own[:, 0], deviation)
-        course = _size(room + beyond, np.abs(moved * share), np.isfinite(beyond)).min(axis=1)
-        unit = np.where(own[:, 6] > 0.0, own[:, 6], own[:, 0] * np.sqrt(own[:, 5]))
-        rows, rooms = (
-            x[: count * self.every].reshape(count, self.every, len(own)).mean(axis=1)
-            for x in (moved * share, room + UNKNOWN * deviation)
-        )
-        need = own[:, 3] * unit + np.cumsum(rooms + 0.5 * unit, axis=0)
-        sums = _size(need, np.abs(np.cumsum(rows, axis=0)), np.isfinite(need))
-        ends = slice(self.every - 1, count * self.every, self.every)
-        course[ends] = np.minimum(course[ends], sums.min(axis=1, initial=math.inf))
-        times = np.ceil(np.arange(1, _TIMES + 1) * len(course) / _TIMES).astype(int) - 1
-        return np.asarray(np.minimum.accumulate(course)[times])
-
-
-def _size(need: Array, slopes: Array, shows: Mask) -> Array:
-    """The change that moves residuals as far as needed; infinite where it cannot show."""
-    return np.divide(need, slopes, out=np.full_like(slopes, math.inf), where=shows & (slopes > 0))
-
-
-class _Whole:
-    """The residuals with the whole of their thresholds, beside the slopes of what is tolerated."""
-
-    def __init__(self, work: _Work, held: Array) -> None:
-        self.engine, self._held = work.engine.configured(), held
-        self._bank = Bank(work.engine.configured(bounds=False), work.tolerated, work.nominal)
-        self._doubt, self._tolerated = Doubt(work.engine, work.model), work.tolerated
-        self._walk, self._age = work.walk, 0
-
-    def run(self, samples: Array) -> tuple[Batch, Array, Array]:
-        """Go on with further samples."""
-        batch, slopes = self.engine.run(samples), self._bank.run(samples)
-        doubt, valid = self._doubt.run(samples, batch, self._age, self._walk, self._held)
-        self.acted = self._doubt.acted.max(axis=0, initial=0.0)
-        bound = batch.bound + slack(self._tolerated, slopes) + doubt
-        self._age += len(samples)
-        return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes, doubt
 
 
 def _beyond(batch: Batch) -> Array:
@@ -573,44 +432,3 @@ def _where_it_stands(row: Row, number: int, mean: Array, unsure: Array) -> Row:
 def _mean(column: Array) -> float:
     known = column[np.isfinite(column)]
     return float(known.mean()) if len(known) else 0.0
-
-
-def _by_fault(
-    all_: Sequence[Hypothesis], found: Sequence[Sequence[_Seen]], residuals: Sequence[str]
-) -> dict[str, dict[str, ShownSize]]:
-    """By residual and fault, from which size on the fault shows, in whatever way it is wrong.
-
-    Beside the smallest size that is sure to show in any residual in the same window: what a machine
-    that hardly moves shows of nothing does not count, and ways of different units compare.
-    """
-    by: dict[str, dict[str, ShownSize]] = {name: {} for name in residuals}
-    for one, windows in zip(all_, found, strict=True):
-        units = [float(s.sure.min()) for s in windows]
-        moved = [(s, unit) for s, unit in zip(windows, units, strict=True) if math.isfinite(unit)]
-        if not moved:
-            continue
-        last = len(moved) - 1
-        least = np.sort([s.least / unit for s, unit in moved], axis=0)[math.floor(_LEAST * last)]
-        sure = np.sort([s.sure / unit for s, unit in moved], axis=0)[math.ceil(_SURE * last)]
-        for k, name in enumerate(residuals):  # a way that does not move one may be what is wrong
-            own = ShownSize(float(least[k]), float(sure[k]))
-            was = by[name].get(one.fault, own)
-            by[name][one.fault] = ShownSize(min(was.least, own.least), max(was.sure, own.sure))
-    return {
-        name: {f: size for f, size in faults.items() if math.isfinite(size.least)}
-        for name, faults in by.items()
-    }
-
-
-def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[str]) -> Shown:
-    if not found:
-        return Shown(hypothesis, None, None, "")
-    at = min(len(found) - 1, math.floor(_SURE * len(found)))
-    course = tuple(np.sort([s.course for s in found], axis=0)[at].tolist())
-    size = sorted(s.size for s in found)[at]
-    seen = [s for s in found if math.isfinite(s.size)]
-    if not math.isfinite(size) or not seen:
-        return Shown(hypothesis, None, None, "", course=course)
-    delay = float(np.median([s.delay for s in seen]))
-    often = np.bincount([s.residual for s in seen])
-    return Shown(hypothesis, size, delay, residuals[int(np.argmax(often))], course=course)

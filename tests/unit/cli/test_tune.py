@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from bondgraph.cli.tune import _best, _score
-from bondgraph.runtime.diagnosis.calibration import Shown, Tuned
+from bondgraph.runtime.diagnosis.calibration import Tuned
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.shown_sizes import Shown
 from bondgraph.runtime.diagnosis.tuning import Tuning
 
 

@@ -19,9 +19,10 @@ from scipy.signal import lfilter
 from bondgraph.compile_options import Options
 from bondgraph.ir.residual_limit import ShownSize
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.diagnosis.calibration import Tuned, _by_fault, _Seen, _shown, _Work, tune
+from bondgraph.runtime.diagnosis.calibration import Tuned, _Work, tune
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.rows import to_row_ends
+from bondgraph.runtime.diagnosis.shown_sizes import _by_fault, _Seen, _shown
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
 from bondgraph.runtime.log import Array
 from bondgraph.text.source import Source

@@ -1,0 +1,205 @@
+"""What limits let a monitor see: from which size on a fault shows, when, and in what."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from bondgraph.ir.residual_limit import ShownSize
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
+from bondgraph.runtime.diagnosis.history import HEALTHY
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
+from bondgraph.runtime.diagnosis.standing import followed
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, limits
+from bondgraph.runtime.diagnosis.whole_thresholds import WholeThresholds
+from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
+from bondgraph.text.tuples import NamedTuple
+
+_SURE = 0.9  # share of the windows in which the smallest change shows
+_LEAST = 0.1  # that in which a change may show
+_TIMES = 20  # in a window, at which it is asked what shows so far
+
+
+class Shown(NamedTuple):
+    """What can be seen of one hypothesis: the smallest change that is sure to show.
+
+    `size` in the unit of the hypothesis (None: nothing moves), in nine windows of ten; `delay` is
+    the median time in s until it shows. `residual` is the one that shows it first most often. A
+    storage that becomes another one keeps what it holds, and what is measured of it jumps; where
+    nothing jumps, as of what comes on slowly, it takes a change of `smooth`. What shows at so many
+    times of the window, by a sample or by a sum of rows, is its `course`, infinite before anything
+    does.
+    """
+
+    hypothesis: Hypothesis
+    size: float | None
+    delay: float | None
+    residual: str
+    smooth: float | None = None
+    course: tuple[float, ...] = (math.inf,) * _TIMES
+
+
+class _Seen(NamedTuple):
+    """Of one window: the smallest change that shows, when, and in which residual; for each residual
+    the one that may show in it, and the one that does with a threshold that never moves; and what
+    shows so far, by sums too, in the `course` of the window.
+    """
+
+    size: float
+    delay: float
+    residual: int
+    least: Array
+    sure: Array
+    course: Array
+
+
+class ShownSizes:
+    """Collects from healthy logs what faults would show in them, each begun in every window.
+
+    `all_` are the hypotheses, `window` is how long each is taken to be there, in s. `rigid` are
+    thresholds that never move, by residual.
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        model: DiagnosisModel,
+        all_: Sequence[Hypothesis],
+        known: Mapping[str, Limit],
+        window: float,
+        rigid: Array,
+    ) -> None:
+        self._model, self._all, self._rigid = model, all_, rigid
+        self._names, self._every = engine.residuals, rows_apart(engine)
+        self._table = np.array(limits(known, engine.residuals), dtype=float)
+        self._length = max(2, round(window / engine.sample_time))
+        self._level = followed(self._table, -(-self._length // self._every), HEALTHY)
+        # each as what may jump; behind them those that need not
+        self._lasting = [h for h in all_ if h.fault in model.dynamic]
+        self._ways = [*all_, *self._lasting]
+        self._found: list[list[_Seen]] = [[] for _ in self._ways]
+
+    def add(self, samples: Array, whole: WholeThresholds) -> None:
+        """Take the windows of one more log, whose thresholds begin with it."""
+        engine, nominal = whole.engine, self._model.nominal
+        start = math.ceil(engine.warm_up / engine.sample_time) + 1
+        behind = engine.configured(bounds=False)  # where it was a warm-up ago
+        whole.run(samples[:start])
+        for begin in range(start, len(samples) - self._length + 1, self._length):
+            part = samples[begin : begin + self._length]
+            bank = Bank(copied(engine), self._all, nominal, samples[begin - 1])
+            slopes = bank.run(part)
+            if self._lasting:
+                past = Bank(copied(behind), self._lasting, nominal)
+                past.onset(past.run(samples[begin - start : begin], [start - 1])[0])
+                slopes = np.concatenate([slopes, past.run(part)], axis=1)
+                behind.run(samples[begin - start : begin - start + self._length])
+            batch, _, _ = whole.run(part)
+            for k, way in enumerate(self._ways):
+                self._found[k].append(self._seen(way, slopes[:, k], batch, engine.sample_time))
+
+    def shown(self) -> tuple[Shown, ...]:
+        """What can be seen of each hypothesis, in the order of all."""
+        every = [_shown(way, own, self._names)
+                 for way, own in zip(self._ways, self._found, strict=True)]  # fmt: skip
+        count = len(self._all)
+        smooth = {one.hypothesis: one.size for one in every[count:]}
+        return tuple(
+            one._replace(smooth=smooth.get(one.hypothesis, one.size)) for one in every[:count]
+        )
+
+    def by_fault(self) -> dict[str, dict[str, ShownSize]]:
+        """By residual and fault, from which size on the fault shows (see `_by_fault`)."""
+        return _by_fault(self._ways, self._found, self._names)
+
+    def _seen(
+        self, hypothesis: Hypothesis, moved: Array, batch: Batch, sample_time: float
+    ) -> _Seen:
+        slopes, own = np.abs(moved), self._table
+        share = self._model.tolerances.get(hypothesis.fault, 0.0)
+        tolerated = share * abs(self._model.nominal.get(hypothesis.fault, 0.0)) * slopes
+        room = 2.0 * batch.bound - np.minimum(tolerated, batch.bound)
+        top = own[:, 2] * own[:, 0]
+        shows = batch.valid & np.isfinite(top)
+        least = _size(room + top, slopes, shows)
+        sure = _size(np.broadcast_to(2.0 * self._rigid + top, slopes.shape), slopes, shows)
+        at, residual = np.unravel_index(int(np.argmin(least)), least.shape)
+        return _Seen(
+            float(least[at, residual]),
+            (int(at) + 1) * sample_time,
+            int(residual),
+            least.min(axis=0),
+            sure.min(axis=0),
+            self._course(np.where(shows, moved, 0.0), room),
+        )
+
+    def _course(self, moved: Array, room: Array) -> Array:
+        """The smallest change that has shown at each of so many times, by a sample or by a sum.
+
+        Both are beside a level that is followed (see `Levels` and `Cusum`).
+        """
+        own, level = self._table, self._level
+        count = len(moved) // self._every
+        deviation, share = (np.repeat(x, self._every, axis=0)[: len(moved)] for x in level)
+        beyond = own[:, 2] * np.hypot(own[:, 0], deviation)
+        course = _size(room + beyond, np.abs(moved * share), np.isfinite(beyond)).min(axis=1)
+        unit = np.where(own[:, 6] > 0.0, own[:, 6], own[:, 0] * np.sqrt(own[:, 5]))
+        rows, rooms = (
+            x[: count * self._every].reshape(count, self._every, len(own)).mean(axis=1)
+            for x in (moved * share, room + UNKNOWN * deviation)
+        )
+        need = own[:, 3] * unit + np.cumsum(rooms + 0.5 * unit, axis=0)
+        sums = _size(need, np.abs(np.cumsum(rows, axis=0)), np.isfinite(need))
+        ends = slice(self._every - 1, count * self._every, self._every)
+        course[ends] = np.minimum(course[ends], sums.min(axis=1, initial=math.inf))
+        times = np.ceil(np.arange(1, _TIMES + 1) * len(course) / _TIMES).astype(int) - 1
+        return np.asarray(np.minimum.accumulate(course)[times])
+
+
+def _size(need: Array, slopes: Array, shows: Mask) -> Array:
+    """The change that moves residuals as far as needed; infinite where it cannot show."""
+    return np.divide(need, slopes, out=np.full_like(slopes, math.inf), where=shows & (slopes > 0))
+
+
+def _by_fault(
+    all_: Sequence[Hypothesis], found: Sequence[Sequence[_Seen]], residuals: Sequence[str]
+) -> dict[str, dict[str, ShownSize]]:
+    """By residual and fault, from which size on the fault shows, in whatever way it is wrong.
+
+    Beside the smallest size that is sure to show in any residual in the same window: what a machine
+    that hardly moves shows of nothing does not count, and ways of different units compare.
+    """
+    by: dict[str, dict[str, ShownSize]] = {name: {} for name in residuals}
+    for one, windows in zip(all_, found, strict=True):
+        units = [float(s.sure.min()) for s in windows]
+        moved = [(s, unit) for s, unit in zip(windows, units, strict=True) if math.isfinite(unit)]
+        if not moved:
+            continue
+        last = len(moved) - 1
+        least = np.sort([s.least / unit for s, unit in moved], axis=0)[math.floor(_LEAST * last)]
+        sure = np.sort([s.sure / unit for s, unit in moved], axis=0)[math.ceil(_SURE * last)]
+        for k, name in enumerate(residuals):  # a way that does not move one may be what is wrong
+            own = ShownSize(float(least[k]), float(sure[k]))
+            was = by[name].get(one.fault, own)
+            by[name][one.fault] = ShownSize(min(was.least, own.least), max(was.sure, own.sure))
+    return {
+        name: {f: size for f, size in faults.items() if math.isfinite(size.least)}
+        for name, faults in by.items()
+    }
+
+
+def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[str]) -> Shown:
+    if not found:
+        return Shown(hypothesis, None, None, "")
+    at = min(len(found) - 1, math.floor(_SURE * len(found)))
+    course = tuple(np.sort([s.course for s in found], axis=0)[at].tolist())
+    size = sorted(s.size for s in found)[at]
+    seen = [s for s in found if math.isfinite(s.size)]
+    if not math.isfinite(size) or not seen:
+        return Shown(hypothesis, None, None, "", course=course)
+    delay = float(np.median([s.delay for s in seen]))
+    often = np.bincount([s.residual for s in seen])
+    return Shown(hypothesis, size, delay, residuals[int(np.argmax(often))], course=course)
