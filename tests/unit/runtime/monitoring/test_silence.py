@@ -68,6 +68,11 @@ def fed(kind: str, tmp_path: Path, watch: Start, broker: Callable[..., Broker],
         machine.close()
 
 
+def _read(one: Watch) -> int:
+    """How many samples had been read by the last heartbeat."""
+    return int([v for v in one.said if v["event"] == "heartbeat"][-1]["account"]["samples"]["read"])
+
+
 KINDS = pytest.mark.parametrize("kind", ["pipe", "file", "serial", "mqtt"])
 
 
@@ -86,6 +91,7 @@ def test_a_source_that_falls_silent_is_told_and_so_is_its_return(
         send(csv(log, 3600, 6000))
         one.heard("gap", "samples come again, after")
         assert "800 samples lost" in one.heard("gap", "lost")["message"]
+        until(lambda: _read(one) == 5200, "the last sample")
         one.heard("heartbeat", "r1, r2 healthy")
         assert one.ended(signal.SIGTERM) == 0
     account = one.said[-1]["account"]
