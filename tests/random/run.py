@@ -15,6 +15,10 @@ from pathlib import Path
 from random import Random, SystemRandom
 from typing import NamedTuple
 
+from hypothesis import HealthCheck, find, settings
+from hypothesis import strategies as st
+from hypothesis.errors import NoSuchExample
+
 from tests import measured
 from tests.random.graphs import Graph, generate
 from tests.random.judge import OTHER_COUNT, PART, UNEXPLAINED, Verdict, judge
@@ -76,6 +80,21 @@ def table(found: Counted) -> str:
     return "\n".join(["| Answer | Graphs |", "|---|---:|", *(f"| {a} | {n} |" for a, n in rows)])
 
 
+def smallest(count: int) -> Graph | None:
+    """The smallest graph that is answered wrongly, if any of so many is, shrunk by hypothesis."""
+    options = settings(
+        max_examples=count,
+        deadline=None,
+        database=None,
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+    )
+    graphs = st.builds(generate, st.randoms(use_true_random=False))
+    try:
+        return find(graphs, lambda one: bool(judge(one, _SECONDS).wrong), settings=options)
+    except NoSuchExample:
+        return None
+
+
 def main() -> int:
     """Status 1 if an answer is wrong."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -83,12 +102,17 @@ def main() -> int:
     parser.add_argument("--start", type=int, help="the first graph; others each time without it")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--show", type=int, help="print one graph and the verdict on it")
+    parser.add_argument("--smallest", action="store_true", help="shrink the first wrong one")
     parser.add_argument("--write", action="store_true", help="put the table into its page")
     options = parser.parse_args()
     if options.show is not None:
         graph = of_seed(options.show)
         print(graph.text, judge(graph), "relations by rank:", graph.relations())
         return 0
+    if options.smallest:
+        least = smallest(options.count)
+        print("none is answered wrongly" if least is None else least.text)
+        return int(least is not None)
     start = SystemRandom().randrange(10**9) if options.start is None else options.start
     command = f"python -m tests.random.run --start {start} --count {options.count}"
     print(command, flush=True)

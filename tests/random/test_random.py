@@ -1,20 +1,18 @@
 """Each random graph is answered: verified, or refused with a reason; as many relations as by rank.
 
-`python -m tests.random.run --count 10000` tries more of them, `--show NUMBER` prints one.
+`python -m tests.random.run --count 10000` tries more of them, `--show NUMBER` prints one, and
+`--smallest` looks for the smallest one that is answered wrongly.
 """
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
-from random import Random
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from tests.measured import measured
-from tests.random.graphs import Graph, generate
+from tests.random.graphs import Graph
 from tests.random.judge import judge
 from tests.random.rank import P, rank, relations
 from tests.random.rings import rings, surplus
@@ -23,7 +21,7 @@ from tests.random.run import PAGE, counted, of_seed, table, verdict
 _BATCH = 20
 
 
-@pytest.mark.parametrize("first", range(80, 200, _BATCH))
+@pytest.mark.parametrize("first", range(80, 140, _BATCH))
 def test_the_answers_stand(first: int) -> None:
     wrong = {n: judge(of_seed(n)).wrong for n in range(first, first + _BATCH)}
     assert {n: text for n, text in wrong.items() if text} == {}
@@ -35,19 +33,6 @@ def test_the_sample_on_the_page_is_what_is_answered_now() -> None:
     start, count = int(sample[1]), int(sample[2])
     (text,) = [m.text for m in measured(PAGE) if m.command == sample.string]
     assert text == table(counted(map(verdict, range(start, start + count))))
-
-
-@settings(
-    max_examples=60,
-    deadline=None,
-    database=None,
-    derandomize=True,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
-)
-@given(st.randoms(use_true_random=False))
-def test_the_smallest_wrong_answer(random: Random) -> None:
-    graph = generate(random)
-    assert judge(graph).wrong == "", graph.text
 
 
 @pytest.mark.parametrize("first", range(25, 75, 25))
