@@ -424,7 +424,7 @@ def _where_it_stands(row: Row, number: int, mean: Array, unsure: Array) -> Row:
     own = own._replace(value=own.value.copy(), bound=bound, doubt=doubt)
     bound, doubt = row.bound + unsure, row.doubt + unsure
     value = np.where(row.valid, row.value, 0.0)
-    found = row._replace(time=number, value=value, mean=mean, bound=bound, doubt=doubt, average=own)
+    found = row._replace(time=number, value=value, bound=bound, doubt=doubt, average=own)
     found.lower(mean)
     return found
 

@@ -206,7 +206,7 @@ class Diagnosis:
             self._calm.clear()
             self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
             mean = self._limits[:, 4].copy()
-            rows = [r._replace(value=np.where(r.valid, r.value - mean, 0.0), mean=mean)
+            rows = [r._replace(value=np.where(r.valid, r.value - mean, 0.0), mean=mean.copy())
                     for r in found.rows]  # fmt: skip
             self._past = deque(rows, maxlen=self._past.maxlen)
             self._before = copied(self._bank.engine)
@@ -288,8 +288,6 @@ class Diagnosis:
             longer = itertools.islice(self._calm, max(0, len(self._calm) - len(self._past)))
             for one in (*longer, *self._past):
                 one.lower(moved)
-            mean = self._limits[:, 4].copy()
-            self._past = deque((r._replace(mean=mean) for r in self._past), self._past.maxlen)
 
     def _remember(self, row: Row) -> None:
         """Learn from a row once the ones behind it are as usual too: before an alarm a fault acts.

@@ -84,9 +84,12 @@ class Row(NamedTuple):
 
     def lower(self, by: Array) -> None:
         """Take something more off the values: residuals stand elsewhere while all is well."""
-        self.value[self.valid] -= by[self.valid]
+        np.subtract(self.value, by, out=self.value, where=self.valid)
+        if isinstance(self.mean, np.ndarray):
+            np.add(self.mean, by, out=self.mean)
         if self.average is not None:
-            self.average.value[self.average.valid] -= by[self.average.valid]
+            own = self.average
+            np.subtract(own.value, by, out=own.value, where=own.valid)
 
 
 def beside(row: Row, limits: Array) -> tuple[Array, Array, Mask]:
