@@ -41,7 +41,7 @@ model M {
 }
 """
     model = Compilation(Source("m.bg", text))
-    engine = model.engine(native=False)
+    engine = model.engine()
     here = {"U": 6.0, "i": 3.0, "V": 6.0, "j": np.nan}
     count = round(10.0 * engine.warm_up / engine.sample_time)
     samples = np.tile([here[k.path] for k in engine.signals], (count, 1))

@@ -40,14 +40,14 @@ def _log(seed: int, volts: float, other: float = 1.0) -> Array:
 def test_steps_of_a_held_command_are_no_fault_however_large() -> None:
     """A tuning of small steps, then steps fifty times as large; a tenth more of R shows."""
     made = Compilation(Source("m.bg", _TEXT), None, Options(rate=1.0 / _STEP))
-    engine = made.engine(native=False)
+    engine = made.engine()
     assert [k.path for k in engine.signals] == ["U", "v"]
     logs = [_log(1, 0.1)]
     tuning = tune(engine, made.diagnosis_model, logs, made.program.digest, 1.0).tuning
     made = made.tuned(tuning)
     for other in (1.0, 1.1):
         log = _log(2, 5.0, other)
-        own = made.engine(native=False)
+        own = made.engine()
         said = made.diagnosis(own, tuning).update(np.arange(_COUNT) * _STEP, own.run(log), log)
         fired = [v.time for v in said if v.event == "fault"]
         assert bool(fired) == (other > 1.0)

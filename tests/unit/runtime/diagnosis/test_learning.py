@@ -30,7 +30,7 @@ model M {
 
 def learner(*known: Hypothesis) -> tuple[Learning, Engine]:
     model = Compilation(Source("m.bg", _TEXT))
-    engine = model.engine(native=False)
+    engine = model.engine()
     return Learning(engine, known, np.ones(1, dtype=bool), model.diagnosis_model), engine
 
 
@@ -153,7 +153,7 @@ def test_a_residual_with_a_switch_that_does_not_stand_at_zero_is_told_too() -> N
     text = _TEXT.replace("param R", "input on : bool; param R")
     text = text.replace("R:r = R", "R:r { e = if(on, R, 2*R)*f }")
     model = Compilation(Source("m.bg", text))
-    engine = model.engine(native=False)
+    engine = model.engine()
     for stands in (0.0, 5.0):
         learning = Learning(engine, (), np.ones(1, dtype=bool), model.diagnosis_model)
         for value in drawn(30):
@@ -171,7 +171,7 @@ def test_a_parameter_that_is_out_of_its_tolerance_from_the_start_is_told(
     # r = U - R i, i = 3 A, and R = 2 Ohm within 0.1: what is off by 0.5 Ohm is no noise of 0.02 V
     text = _TEXT.replace("2 Ohm", "2 Ohm +- 5%")
     model = Compilation(Source("m.bg", text)).diagnosis_model
-    engine = Compilation(Source("m.bg", text)).engine(native=False)
+    engine = Compilation(Source("m.bg", text)).engine()
     known = Hypothesis("R", "value", "Ohm", 0.6, True)
     learning = Learning(engine, (known,), np.ones(1, dtype=bool), model)
     for value in drawn(30, 0.02):

@@ -44,7 +44,7 @@ def test_noise_of_the_sensor_that_a_parameter_is_multiplied_with_is_no_bias() ->
     """U = R y, y with noise: least squares gives R / (1 + noise/signal) in the filter's band."""
     low = 0.2 * np.sin(7.0 * TIME)
     told = [only(fitted(ONE, U=3.0 * low, y=low + noise(0.5, seed))) for seed in range(5)]
-    y = bondgraph.compile(text=ONE, rate=RATE).engine(native=False)
+    y = bondgraph.compile(text=ONE, rate=RATE).engine()
     small, large = y.configured({"R": 1.0}), y.configured({"R": 2.0})
     samples = np.stack([3.0 * low, low + noise(0.5, 0)], axis=1)
     order = [["U", "y"].index(k.path) for k in y.signals]

@@ -134,14 +134,14 @@ def _run(seed: int, leak: float = 0.0, rows: int = 1500) -> Array:
 
 @cache
 def _tuning() -> Tuning:
-    engine = tank().engine(native=False)
+    engine = tank().engine()
     logs = [_run(100 + k) for k in range(5)]
     tuned = tune(engine, tank().diagnosis_model, logs, tank().program.digest, 1.0)
     return tuned.tuning
 
 
 def _watched(samples: Array) -> list[Verdict]:
-    engine, said = tank().engine(native=False), []
+    engine, said = tank().engine(), []
     watch = tank().diagnosis(engine, _tuning())
     for k in range(0, len(samples), 100):
         part = samples[k : k + 100]

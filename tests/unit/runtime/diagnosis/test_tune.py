@@ -45,7 +45,7 @@ def model() -> Compilation:
 @cache
 def tuned() -> Tuned:
     """Of two logs of different length, and one that is too short to count."""
-    engine = model().engine(native=False)
+    engine = model().engine()
     assert [k.path for k in engine.signals] == ["U", "i"]
     logs = []
     for seed, count in ((1, _COUNT), (2, _COUNT // 2), (3, 5)):
@@ -100,7 +100,7 @@ def test_what_was_learned_from_is_told() -> None:
     found = tuned().tuning
     assert (found.model, found.false_alarms) == ("digest", 2.0)
     assert found.rate == pytest.approx(1.0 / _STEP)
-    warm = 2 * model().engine(native=False).warm_up
+    warm = 2 * model().engine().warm_up
     assert found.seconds == pytest.approx(1.5 * _COUNT * _STEP - warm, abs=4 * _STEP)
 
 
@@ -160,7 +160,7 @@ model M {
 }
 """
     engine = Compilation(Source("m.bg", text), None, Options(rate=1 / _STEP))
-    own = engine.engine(native=False)
+    own = engine.engine()
     assert [k.path for k in own.signals] == ["U", "V", "i", "j"]
     first, second, big = 3.0, 0.5, 20.0  # of U and i, and of V and j; the window is long: 20/b
     draw = np.random.default_rng(5)
@@ -194,7 +194,7 @@ def test_a_storage_that_changes_without_a_jump_shows_by_what_flows_into_it() -> 
     }
     """
     made = Compilation(Source("m.bg", text), None, Options(rate=1.0 / _STEP))
-    engine = made.engine(native=False)
+    engine = made.engine()
     assert [k.path for k in engine.signals] == ["i", "v"]
     slope, window, count = 0.5, 1.0, 20_000
     volts = 5.0 + slope * np.arange(count) * _STEP
@@ -224,7 +224,7 @@ def test_a_way_that_does_not_move_a_residual_is_not_ruled_out_by_its_silence() -
 
 @pytest.mark.parametrize("first", [True, False])
 def test_a_limit_stays_above_what_a_healthy_machine_has_reached(first: bool) -> None:
-    engine = model().engine(native=False).configured(bandwidth=300.0)
+    engine = model().engine().configured(bandwidth=300.0)
     noise = np.random.default_rng(4).normal(0.0, _NOISE, 6000)
     quiet = np.column_stack([np.full(6000, _R * _I), _I + noise])
     pulse = quiet.copy()
@@ -247,7 +247,7 @@ model M {
 }
 """
     made = Compilation(Source("m.bg", text), None, Options(rate=1 / _STEP))
-    engine = made.engine(native=False)
+    engine = made.engine()
     assert [k.path for k in engine.signals] == ["U", "V", "i", "j"]
     draw = np.random.default_rng(7)
     log = draw.normal(0.0, 1e-5, (_COUNT, 4)) + [_R * _I, 0.0, _I, 1.0]
@@ -272,7 +272,7 @@ model M {
 
 def test_noise_is_not_taken_for_less_than_the_digits_that_a_log_has() -> None:
     """A log without noise: U adds 6 V to the residual and R i takes them away."""
-    engine = model().engine(native=False)
+    engine = model().engine()
     exact = np.tile([_R * _I, _I], (_COUNT, 1))
     limit = tune(engine, model().diagnosis_model, [exact], "digest", 2.0).tuning.limits["r1"]
     assert limit.sigma == pytest.approx(1e-7 * _R * _I)
@@ -284,12 +284,12 @@ def test_sums_of_a_healthy_machine_count_however_high_they_are(begin: int) -> No
     draw = np.random.default_rng(8)
     log = np.column_stack([np.full(_COUNT, _R * _I), _I + draw.normal(0.0, _NOISE, _COUNT)])
     log[begin : begin + 1000, 1] += 0.6 * _NOISE
-    engine = model().engine(native=False)
+    engine = model().engine()
     tuning = tune(engine, model().diagnosis_model, [log], model().program.digest, 2.0).tuning
     usual = tuned().tuning.limits["r1"].height
     assert tuning.limits["r1"].height > 2.0 * 1.2 * usual
     watching = model().tuned(tuning)
-    own = watching.engine(native=False)
+    own = watching.engine()
     watch = watching.diagnosis(own, tuning)
     said = watch.update(np.arange(_COUNT) * _STEP, own.run(log), log)
     assert [v for v in said if v.event == "warm-up"]
@@ -308,7 +308,7 @@ def _wandering(seed: int, fault: float = 0.0) -> Array:
 
 def test_where_a_level_wanders_noise_is_beside_that_in_a_tuning_too() -> None:
     """Behind the filter noise has 0.002 V, and what wanders ten times that: a fault has 0.1 V."""
-    engine, digest = model().engine(native=False), model().program.digest
+    engine, digest = model().engine(), model().program.digest
     logs = [_wandering(seed) for seed in range(3)]
     tuning = tune(engine, model().diagnosis_model, logs, digest, 2.0, _WINDOW).tuning
     limit = tuning.limits["r1"]
@@ -317,7 +317,7 @@ def test_where_a_level_wanders_noise_is_beside_that_in_a_tuning_too() -> None:
     watching = model().tuned(tuning)
     for fault, seeds in ((0.0, range(3, 7)), (5.0 * _NOISE, range(10, 13))):
         for seed in seeds:
-            own, log = watching.engine(native=False), _wandering(seed, fault)
+            own, log = watching.engine(), _wandering(seed, fault)
             watch = watching.diagnosis(own, tuning)
             said = watch.update(np.arange(_COUNT) * _STEP, own.run(log), log)
             alarms = [v.time for v in said if v.event == "fault"]
@@ -348,7 +348,7 @@ def test_what_adds_up_readings_walks_away(tunes: bool) -> None:
         force = 100.0 * place * (1.0 + 20.0 * place**2)
         return np.column_stack([speed, force + draw.normal(0.0, 0.005, count)])
 
-    engine = made.engine(native=False)
+    engine = made.engine()
     assert [k.path for k in engine.signals] == ["v", "F"]
     tuning = None
     if tunes:
@@ -360,7 +360,7 @@ def test_what_adds_up_readings_walks_away(tunes: bool) -> None:
         made = made.tuned(tuning)
     samples, time, begin = log(4, 200_000), np.arange(200_000) * 0.01, 198_000
     samples[begin:, 1] += 15.0 * 0.13 * math.sqrt(begin / rows_apart(engine))
-    own = made.engine(native=False)
+    own = made.engine()
     said = made.diagnosis(own, tuning).update(time, own.run(samples), samples)
     fired = [v.time for v in said if v.event == "fault"]
     assert fired and fired[0] == pytest.approx(time[begin], abs=2.0)
@@ -368,7 +368,7 @@ def test_what_adds_up_readings_walks_away(tunes: bool) -> None:
 
 def test_rows_are_those_of_a_watch_of_the_same_log() -> None:
     """What falls off within a row is another sum of rows that end elsewhere."""
-    engine = model().engine(native=False).configured(bandwidth=100.0)
+    engine = model().engine().configured(bandwidth=100.0)
     every = rows_apart(engine)
     start = math.ceil(engine.warm_up / engine.sample_time) + 1
     assert start % every  # not by chance
@@ -388,7 +388,7 @@ def test_rows_are_those_of_a_watch_of_the_same_log() -> None:
 
 
 def test_a_log_that_ends_with_the_first_row_behind_the_warm_up_teaches_nothing() -> None:
-    engine = model().engine(native=False)
+    engine = model().engine()
     short = math.ceil(engine.warm_up / engine.sample_time) + 1 + rows_apart(engine)
     logs = [np.tile([_R * _I, _I], (short, 1))]
     logs[0][:, 1] += np.random.default_rng(6).normal(0.0, _NOISE, short)
@@ -397,7 +397,7 @@ def test_a_log_that_ends_with_the_first_row_behind_the_warm_up_teaches_nothing()
 
 
 def test_samples_that_are_missing_do_not_count_as_noise() -> None:
-    engine = model().engine(native=False)
+    engine = model().engine()
     current = _I + np.random.default_rng(1).normal(0.0, _NOISE, _COUNT)
     whole = np.column_stack([np.full(_COUNT, _R * _I), current])
     holes = whole.copy()
@@ -426,14 +426,14 @@ def test_what_is_sure_to_show_shows_in_nine_windows_of_ten(sizes: list[float], s
 
 
 def test_logs_that_are_too_short_teach_nothing() -> None:
-    engine = model().engine(native=False)
+    engine = model().engine()
     with pytest.raises(ValueError, match="nothing can be learned"):
         tune(engine, model().diagnosis_model, [np.zeros((4, 2))], "digest", 2.0)
 
 
 def test_slopes_are_what_a_change_makes_of_the_residual() -> None:
     """dr/dR = -i, dr/di = -R and -R i, dr/dU = 1, each behind the lag, from the first sample on."""
-    engine = model().engine(native=False)
+    engine = model().engine()
     ways = (
         ("R", "value", True),
         ("i", "offset", False),

@@ -132,7 +132,7 @@ def _verdicts(
         rest = 2.0 * (1.0 - lost)
         level = rest + (level - rest) * np.exp(-1.0 / 40.0)
     samples = np.array(rows) + draw.normal(size=(1200, 2)) * [0.02, 0.002]
-    engine = tank().engine(native=False)
+    engine = tank().engine()
     watch, said = tank().diagnosis(engine), []
     for k in range(0, 1200, block):
         part = samples[k : k + block]
