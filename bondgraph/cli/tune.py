@@ -74,13 +74,12 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Learn, choose a bandwidth, write the limits, say what follows."""
     from bondgraph.runtime.diagnosis.calibration import tune
-    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 
     if bool(args.logs) == bool(args.simulate):
         raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
         compilation, engine, logs, times = _logs(args)
-        usual = bandwidth_for(1.0 / engine.sample_time, max(map(len, logs), default=0))
+        usual = _usual(1.0 / engine.sample_time, max(map(len, logs), default=0), args.window)
         wanted = args.bandwidth or _wanted(engine, usual, logs, _FACTORS)
         window = args.window or WINDOW / usual
         found: list[Tuned] = []
@@ -112,6 +111,18 @@ def run(args: Namespace) -> int:
         lambda: {"files": [args.output], **_result(compilation, best, found), "times": times},
         lambda: _lines(compilation, best, found, args.output),
     )
+
+
+def _usual(rate: float, longest: int, window: float | None = None) -> float:
+    """The filter that others are held against: that of a watch of logs as long, or of an hour.
+
+    Healthy samples of many hours make limits surer, and no watch slower. Nor is the filter slower
+    than a fault allows that has to show within a `window` of seconds.
+    """
+    from bondgraph.runtime.diagnosis.tuning import FASTEST, bandwidth_for
+
+    usual = max(bandwidth_for(rate, longest), bandwidth_for(rate))
+    return max(usual, min(WINDOW / window, FASTEST * rate)) if window else usual
 
 
 def _wanted(
