@@ -109,7 +109,7 @@ def run(args: Namespace) -> int:
         compilation.report.diagnostics,
         _message(compilation, best),
         lambda: {"files": [args.output], **_result(compilation, best, found), "times": times},
-        lambda: _lines(compilation, best, found, args.output),
+        lambda: _lines(compilation, best, found, args.output, alone=len(args.logs) == 1),
     )
 
 
@@ -258,7 +258,9 @@ def _relative(compilation: Compilation, shown: Shown) -> float | None:
     return shown.size / abs(nominal) if nominal else None
 
 
-def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: str) -> list[str]:
+def _lines(
+    compilation: Compilation, best: Tuned, found: list[Tuned], output: str, alone: bool
+) -> list[str]:
     lines = [_message(compilation, best), ""]
     supported = _supported(best.tuning)
     if supported > best.tuning.false_alarms:
@@ -286,6 +288,10 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
         else:
             rows.append(row)
     lines += [*console.columns(limits), ""]
+    if alone:
+        lines += ["One log does not tell how far others stand apart: of another day or machine, one"
+                  " that stands elsewhere is in alarm for as long as it does. Give several logs, or"
+                  " watch without a tuning", ""]  # fmt: skip
     if stray:
         told = [f"{n} by {far:.3g} ({far / best.tuning.limits[n].sigma:.2g} times the noise)"
                 for n, far in stray.items()]  # fmt: skip

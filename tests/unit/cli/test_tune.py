@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from bondgraph.cli.tune import _best, _score, _usual
@@ -9,6 +11,7 @@ from bondgraph.runtime.diagnosis.calibration import Tuned
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.shown_sizes import Shown
 from bondgraph.runtime.diagnosis.tuning import Tuning
+from tests.unit.cli.conftest import MODELS, Command
 
 
 def _tuned(bandwidth: float, *course: float) -> Tuned:
@@ -46,3 +49,16 @@ def test_what_has_to_show_soon_is_watched_with_a_filter_as_fast() -> None:
     assert _usual(1.0, 7200, 200.0) == pytest.approx(0.2)
     assert _usual(1.0, 7200, 10.0) == pytest.approx(0.4)  # samples have to follow
     assert _usual(1.0, 7200, 5000.0) == _usual(1.0, 7200)
+
+
+def test_one_log_is_told_to_say_nothing_of_other_days(bondgraph: Command, tmp_path: Path) -> None:
+    model, scenario = MODELS / "dc_motor.bg", tmp_path / "healthy.toml"
+    scenario.write_text('duration = "20 s"\n[inputs]\nU = "6*(1 + 0.2*sin(2*pi*t))"\nload = "0.2 mN.m"\n')
+    one, two = tmp_path / "one.csv", tmp_path / "two.csv"
+    for log in (one, two):
+        assert bondgraph("simulate", model, scenario, "-o", log).status == 0
+    words = ("--bandwidth", "20", "-o", tmp_path / "tuning.json")
+    alone, both = (bondgraph("tune", model, *logs, *words) for logs in ([one], [one, two]))
+    assert alone.status == both.status == 0, alone.err
+    assert "One log does not tell how far others stand apart" in alone.out
+    assert "One log" not in both.out
