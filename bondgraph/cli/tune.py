@@ -74,13 +74,12 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Learn, choose a bandwidth, write the limits, say what follows."""
     from bondgraph.runtime.diagnosis.calibration import tune
-    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 
     if bool(args.logs) == bool(args.simulate):
         raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
         compilation, engine, logs, times = _logs(args)
-        usual = bandwidth_for(1.0 / engine.sample_time, max(map(len, logs), default=0))
+        usual = _usual(1.0 / engine.sample_time, max(map(len, logs), default=0), args.window)
         wanted = args.bandwidth or _wanted(engine, usual, logs, _FACTORS)
         window = args.window or WINDOW / usual
         found: list[Tuned] = []
@@ -110,8 +109,20 @@ def run(args: Namespace) -> int:
         compilation.report.diagnostics,
         _message(compilation, best),
         lambda: {"files": [args.output], **_result(compilation, best, found), "times": times},
-        lambda: _lines(compilation, best, found, args.output),
+        lambda: _lines(compilation, best, found, args.output, alone=len(args.logs) == 1),
     )
+
+
+def _usual(rate: float, longest: int, window: float | None = None) -> float:
+    """The filter that others are held against: that of a watch of logs as long, or of an hour.
+
+    Healthy samples of many hours make limits surer, and no watch slower. Nor is the filter slower
+    than a fault allows that has to show within a `window` of seconds.
+    """
+    from bondgraph.runtime.diagnosis.tuning import FASTEST, bandwidth_for
+
+    usual = max(bandwidth_for(rate, longest), bandwidth_for(rate))
+    return max(usual, min(WINDOW / window, FASTEST * rate)) if window else usual
 
 
 def _wanted(
@@ -247,7 +258,9 @@ def _relative(compilation: Compilation, shown: Shown) -> float | None:
     return shown.size / abs(nominal) if nominal else None
 
 
-def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: str) -> list[str]:
+def _lines(
+    compilation: Compilation, best: Tuned, found: list[Tuned], output: str, alone: bool
+) -> list[str]:
     lines = [_message(compilation, best), ""]
     supported = _supported(best.tuning)
     if supported > best.tuning.false_alarms:
@@ -275,6 +288,10 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
         else:
             rows.append(row)
     lines += [*console.columns(limits), ""]
+    if alone:
+        lines += ["One log does not tell how far others stand apart: of another day or machine, one"
+                  " that stands elsewhere is in alarm for as long as it does. Give several logs, or"
+                  " watch without a tuning", ""]  # fmt: skip
     if stray:
         told = [f"{n} by {far:.3g} ({far / best.tuning.limits[n].sigma:.2g} times the noise)"
                 for n, far in stray.items()]  # fmt: skip

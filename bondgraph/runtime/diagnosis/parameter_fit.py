@@ -41,6 +41,7 @@ _STEP = 1e-3  # relative, of central differences
 _WIDE = 10.0  # deviation of a parameter that no log tells, relative to its value
 _TOLD = 0.3  # relative deviation below which a parameter is told
 _LATE = 1.0  # samples by which what jumps may be late: deviation
+_LATEST = 1.5  # samples: straight lines take half a one, a sensor that reads at the next takes one
 _PINNED = 1e-3  # how far what is not told may be from its nominal value
 _SMALLEST = 1e-6  # of its nominal value: a parameter keeps its sign
 _BLIND = 1e-6  # share of an effect that nothing fitted has too: with less it is not told apart
@@ -415,6 +416,8 @@ class _Problem:
         own = np.array([tolerances.get(n, 0.0) / most for n in self.names])
         wide = _WIDE * np.where(own > 0, np.maximum(own, 0.1), 1.0)
         self._spread = np.append(wide, np.full(len(runs.late), _LATE))
+        # a delay acts by its slope: a longer one would add a derivative, and its noise, at will
+        self._low[len(self.names) :], self._high[len(self.names) :] = -_LATEST, _LATEST
         self._pins = np.zeros((0, self.size))
         self._filters = np.zeros((LAGS + 1, len(runs.engine.residuals)))
         self._extra = np.zeros(len(runs.engine.residuals))

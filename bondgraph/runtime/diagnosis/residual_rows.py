@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from bondgraph.runtime.diagnosis.whitening import LAGS
 from bondgraph.runtime.log import Array
@@ -18,6 +19,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 
 _APART = 0.5  # time constants of the filter between two rows
 _JUMP = 10.0  # deviations of its steps that a signal changes by where it jumps
+_SIDE = 5  # samples before a jump, and behind it, that are another level
 _CHUNK = 5000  # samples at a time
 _STILL = 1e-9  # of what it is: a signal that moves less stands still
 _LEAST = 50  # rows below which nothing is told
@@ -50,7 +52,10 @@ class ResidualRows:
         self.late = [
             at for at, known in enumerate(engine.signals)
             if known.kind in ("input", "sensor") and known.counts is None
-            and any(_jumps(p[self.skip * self.every :, at]) for p in self.pieces)
+            and any(
+                _jumps(p[self.skip * self.every :, at], known.kind == "sensor")
+                for p in self.pieces
+            )
         ]  # fmt: skip
         self.biased = [
             at for at, known in enumerate(engine.signals)
@@ -161,11 +166,32 @@ class ResidualRows:
         return found
 
 
-def _jumps(values: Array) -> bool:
-    """Whether a signal has steps that are no part of how it changes else."""
-    steps = np.abs(np.diff(values))
+def _jumps(values: Array, read: bool = False) -> bool:
+    """Whether a signal has steps that are no part of how it changes else, and that last.
+
+    A spike does not: medians of five samples on either side are compared (Tukey 1977). What a
+    converter makes of a reading is none either: most of its steps are one count, the errors of
+    rounding of two samples are apart by the root of a sixth of that.
+
+    >>> still, spike = np.tile([0.0, 0.1], 50), np.zeros(100)
+    >>> spike[60] = 9.0
+    >>> _jumps(still + spike), _jumps(still + 9.0 * (np.arange(100) > 60))
+    (False, True)
+    >>> coarse = np.repeat([1.0, 1.33, 1.0, 1.0, 1.33], 20)
+    >>> _jumps(coarse), _jumps(coarse, read=True)
+    (True, False)
+    """
+    if len(values) < 2 * _SIDE:
+        return False
+    middle = np.median(sliding_window_view(values, _SIDE), axis=1)
+    steps = np.abs(middle[_SIDE:] - middle[:-_SIDE])
     steps = steps[np.isfinite(steps)]
-    return bool(len(steps)) and float(steps.max()) > _JUMP * float(np.median(steps)) / 0.6745
+    moves = steps[steps > 0]
+    if not len(moves):
+        return False
+    usual = float(np.median(steps)) / 0.6745
+    rounding = float(np.median(moves)) / math.sqrt(6.0) if read else 0.0
+    return float(moves.max()) > _JUMP * max(usual, rounding)
 
 
 def _moved(samples: Array, late: Mapping[int, float], off: Mapping[int, float]) -> Array:

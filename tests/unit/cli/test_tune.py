@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from bondgraph.cli.tune import _best, _score
+from bondgraph.cli.tune import _best, _score, _usual
 from bondgraph.runtime.diagnosis.calibration import Tuned
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.shown_sizes import Shown
 from bondgraph.runtime.diagnosis.tuning import Tuning
+from tests.unit.cli.conftest import MODELS, Command
 
 
 def _tuned(bandwidth: float, *course: float) -> Tuned:
@@ -34,3 +37,28 @@ def test_what_shows_late_counts_less() -> None:
 def test_no_filter_gets_credit_for_more_than_what_is_of_use(worse: float, better: float) -> None:
     found = [_tuned(1.0, worse), _tuned(2.0, better)]
     assert _score(found[0], found) == _score(found[1], found)
+
+
+def test_a_longer_healthy_log_makes_no_watch_slower() -> None:
+    assert _usual(1.0, 1200) == 0.2
+    assert _usual(1.0, 3600) == _usual(1.0, 7200) == _usual(1.0, 100_000) == pytest.approx(1 / 12)
+    assert _usual(1000.0, 60_000) == 20.0
+
+
+def test_what_has_to_show_soon_is_watched_with_a_filter_as_fast() -> None:
+    assert _usual(1.0, 7200, 200.0) == pytest.approx(0.2)
+    assert _usual(1.0, 7200, 10.0) == pytest.approx(0.4)  # samples have to follow
+    assert _usual(1.0, 7200, 5000.0) == _usual(1.0, 7200)
+
+
+def test_one_log_is_told_to_say_nothing_of_other_days(bondgraph: Command, tmp_path: Path) -> None:
+    model, scenario = MODELS / "dc_motor.bg", tmp_path / "healthy.toml"
+    scenario.write_text('duration = "20 s"\n[inputs]\nU = "6*(1 + 0.2*sin(2*pi*t))"\nload = "0.2 mN.m"\n')
+    one, two = tmp_path / "one.csv", tmp_path / "two.csv"
+    for log in (one, two):
+        assert bondgraph("simulate", model, scenario, "-o", log).status == 0
+    words = ("--bandwidth", "20", "-o", tmp_path / "tuning.json")
+    alone, both = (bondgraph("tune", model, *logs, *words) for logs in ([one], [one, two]))
+    assert alone.status == both.status == 0, alone.err
+    assert "One log does not tell how far others stand apart" in alone.out
+    assert "One log" not in both.out

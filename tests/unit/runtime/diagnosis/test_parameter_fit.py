@@ -56,6 +56,28 @@ def test_noise_of_the_sensor_that_a_parameter_is_multiplied_with_is_no_bias() ->
     assert sum(holds(p, 3.0) for p in told) >= 4
 
 
+def test_noise_with_long_tails_is_no_jump_that_may_come_late() -> None:
+    """A delay of such a reading would only make its noise larger, and what is left look smaller."""
+    y = np.sin(7.0 * TIME) + noise(0.02)
+    y[100::97] += 2.0  # a spike
+    y[150::970] += 1.0
+    y[151::970] += 1.0  # that is joined over a missing sample
+    assert not fitted(ONE, U=3.0 * np.sin(7.0 * TIME), y=y).delays
+
+
+def test_a_coarse_reading_that_goes_to_and_fro_by_a_count_does_not_jump() -> None:
+    low = np.sin(7.0 * TIME)
+    assert not fitted(ONE, U=3.0 * low, y=np.round(low / 0.66 + noise(0.1)) * 0.66).delays
+
+
+def test_no_delay_is_longer_than_that_of_lines_and_of_a_converter() -> None:
+    """Three tenths of the current come 20 ms late, by a law that the model does not have."""
+    square = np.sign(np.sin(7.0 * TIME))
+    y = square + 0.3 * np.roll(square, 20) + 0.2 * np.sin(0.9 * TIME) + noise(0.001)
+    found = fitted(ONE, U=3.0 * square, y=y)
+    assert found.delays and all(abs(d.value) * RATE < 1.51 for d in found.delays)
+
+
 @pytest.mark.parametrize("second", ["5", "2"])
 def test_of_two_resistors_in_series_only_the_sum_is_told(second: str) -> None:
     found = fitted(SERIES % second, U=DRIVE, y=DRIVE / 8.0 + noise(0.01))
