@@ -169,9 +169,9 @@ class ResidualRows:
 def _jumps(values: Array, read: bool = False) -> bool:
     """Whether a signal has steps that are no part of how it changes else, and that last.
 
-    A spike does not: medians of five samples on either side are compared (Tukey 1977). What a
-    converter makes of a reading is none either: most of its steps are one count, the errors of
-    rounding of two samples are apart by the root of a sixth of that.
+    A spike does not: medians of five samples on either side are apart by half of a step at least.
+    What a converter makes of a reading is none either: most of its steps are one count, the errors
+    of rounding of two samples are apart by the root of a sixth of that.
 
     >>> still, spike = np.tile([0.0, 0.1], 50), np.zeros(100)
     >>> spike[60] = 9.0
@@ -184,14 +184,16 @@ def _jumps(values: Array, read: bool = False) -> bool:
     if len(values) < 2 * _SIDE:
         return False
     middle = np.median(sliding_window_view(values, _SIDE), axis=1)
-    steps = np.abs(middle[_SIDE:] - middle[:-_SIDE])
-    steps = steps[np.isfinite(steps)]
-    moves = steps[steps > 0]
+    lasting, steps = middle[_SIDE:] - middle[:-_SIDE], np.diff(values)
+    known = np.abs(steps[np.isfinite(steps)])
+    moves = known[known > 0.0]
     if not len(moves):
         return False
-    usual = float(np.median(steps)) / 0.6745
+    usual = float(np.median(known)) / 0.6745
     rounding = float(np.median(moves)) / math.sqrt(6.0) if read else 0.0
-    return float(moves.max()) > _JUMP * max(usual, rounding)
+    inside = steps[_SIDE - 1 : 1 - _SIDE]
+    lasts = 2.0 * lasting * np.sign(inside) >= np.abs(inside)
+    return bool((np.abs(inside[lasts]) > _JUMP * max(usual, rounding)).any())
 
 
 def _moved(samples: Array, late: Mapping[int, float], off: Mapping[int, float]) -> Array:
