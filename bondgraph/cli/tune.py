@@ -38,6 +38,7 @@ _CLIMB = 2.0  # times the fastest of these, for as long as that is clearly the b
 _CLEARLY = 0.1  # of the logarithm of what shows: for less none leaves the usual filter
 _MORE = 1.2  # times the change that shows, above which that without a jump is told beside it
 _LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
+_LONGEST = 1200.0  # s of a log that a filter is chosen for: nobody waits longer for a verdict
 WINDOW = 40.0  # time constants of the default filter in which a fault has to show
 
 
@@ -114,14 +115,15 @@ def run(args: Namespace) -> int:
 
 
 def _usual(rate: float, longest: int, window: float | None = None) -> float:
-    """The filter that others are held against: that of a watch of logs as long, or of an hour.
+    """The filter that others are held against: that of a watch of logs as long, or of 20 minutes.
 
-    Healthy samples of many hours make limits surer, and no watch slower. Nor is the filter slower
-    than a fault allows that has to show within a `window` of seconds.
+    Healthy samples of many hours make limits surer, and no watch slower: one that is tuned has no
+    noise to learn from its first rows. Nor is the filter slower than a fault allows that has to
+    show within a `window` of seconds.
     """
     from bondgraph.runtime.diagnosis.tuning import FASTEST, bandwidth_for
 
-    usual = max(bandwidth_for(rate, longest), bandwidth_for(rate))
+    usual = bandwidth_for(rate, min(longest, _LONGEST * rate))
     return max(usual, min(WINDOW / window, FASTEST * rate)) if window else usual
 
 
