@@ -52,7 +52,8 @@ def test_what_has_to_show_soon_is_watched_with_a_filter_as_fast() -> None:
 
 def test_one_log_is_told_to_say_nothing_of_other_days(bondgraph: Command, tmp_path: Path) -> None:
     model, scenario = MODELS / "dc_motor.bg", tmp_path / "healthy.toml"
-    scenario.write_text('duration = "20 s"\n[inputs]\nU = "6*(1 + 0.2*sin(2*pi*t))"\nload = "0.2 mN.m"\n')
+    inputs = 'U = "6*(1 + 0.2*sin(2*pi*t))"\nload = "0.2 mN.m"'
+    scenario.write_text(f'duration = "20 s"\n[inputs]\n{inputs}\n')
     one, two = tmp_path / "one.csv", tmp_path / "two.csv"
     for log in (one, two):
         assert bondgraph("simulate", model, scenario, "-o", log).status == 0
