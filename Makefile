@@ -47,7 +47,7 @@ demo: $(VENV)/run.stamp ## the paper's experiments: simulated, watched, written 
 
 # Side by side, a file at a time: what the tests of a file share is made once.
 test: $(VENV)/dev.stamp ## all tests
-	$(BIN)/python -m pytest -n $(or $(JOBS),auto) --maxprocesses 8 --dist loadfile --durations 25 --durations-min 5 $(TESTS)
+	$(BIN)/python -m pytest -n $(or $(JOBS),auto) --maxprocesses 8 --dist loadfile --durations 60 --durations-min 5 $(TESTS)
 
 check: lint types imports test site wheel ## all that CI runs
 
