@@ -59,8 +59,8 @@ class _Seen(NamedTuple):
 class ShownSizes:
     """Collects from healthy logs what faults would show in them, each begun in every window.
 
-    `all_` are the hypotheses, `window` is how long each is taken to be there, in s. `rigid` are
-    thresholds that never move, by residual.
+    `all_` are the hypotheses, `known` the limits by residual, `window` is how long each fault is
+    taken to be there, in s. `rigid` are thresholds that never move, by residual.
     """
 
     def __init__(
