@@ -7,7 +7,7 @@
 
     <!-- end -->
 
-The command is all that it takes to measure again. Pages keep a small sample beside each long
+The command is all that it takes to measure again. Most pages keep a small sample beside a long
 campaign, and a test measures the sample again and compares.
 """
 

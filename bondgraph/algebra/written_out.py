@@ -55,7 +55,6 @@ def _terms(node: Expr, args: list[list[int]], order: int) -> list[int]:
     return _function(args, order)
 
 
-
 def _function(args: list[list[int]], order: int) -> list[int]:
     """Of something that stays as it is: its derivative is a slope times that of an argument."""
     found = [1]

@@ -231,7 +231,8 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:
             when = f"{1000 * abs(delay.value):.3g} ms {'early' if delay.value > 0.0 else 'late'}"
-            lines.append(f"  {delay.signal} comes {when} in the log")
+            more = " or more: no more is fitted, declare it in the model by `delay`"
+            lines.append(f"  {delay.signal} comes {when} in the log{more if delay.bound else ''}")
     return [*lines, "", f"Written to {joined(files, 'and')}"]
 
 

@@ -38,7 +38,7 @@ _CLIMB = 2.0  # times the fastest of these, for as long as that is clearly the b
 _CLEARLY = 0.1  # of the logarithm of what shows: for less none leaves the usual filter
 _MORE = 1.2  # times the change that shows, above which that without a jump is told beside it
 _LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
-_LONGEST = 1200.0  # s of a log that a filter is chosen for: nobody waits longer for a verdict
+_LONGEST = 1200.0  # s of a log that the usual filter is chosen for at most: alarms end rows late
 WINDOW = 40.0  # time constants of the default filter in which a fault has to show
 
 

@@ -42,6 +42,7 @@ _WIDE = 10.0  # deviation of a parameter that no log tells, relative to its valu
 _TOLD = 0.3  # relative deviation below which a parameter is told
 _LATE = 1.0  # samples by which what jumps may be late: deviation
 _LATEST = 1.5  # samples: straight lines take half a one, a sensor that reads at the next takes one
+_AT_BOUND = 0.99  # of that: no more is fitted, and it may be more
 _PINNED = 1e-3  # how far what is not told may be from its nominal value
 _SMALLEST = 1e-6  # of its nominal value: a parameter keeps its sign
 _BLIND = 1e-6  # share of an effect that nothing fitted has too: with less it is not told apart
@@ -140,12 +141,13 @@ class Delay(NamedTuple):
 
     Below zero it is there too late. A step at a sample is half a sample early where straight lines
     join samples, one that a sensor reads at the next sample is late: without this, parameters would
-    have to make up for it.
+    have to make up for it. What is at its `bound` may be more, for which parameters make up.
     """
 
     signal: str
     value: float
     error: float
+    bound: bool
 
 
 class Terms(NamedTuple):
@@ -277,7 +279,7 @@ def fit(
     apart = np.where(deviation > 0, deviation, 1.0)
     time = engine.sample_time
     delays = tuple(
-        Delay(name, float(d) * time, math.sqrt(max(v, 0.0)) * time)
+        Delay(name, float(d) * time, math.sqrt(max(v, 0.0)) * time, abs(d) > _AT_BOUND * _LATEST)
         for name, d, v in zip(runs.names(runs.late), late, np.diag(whole)[count:], strict=True)
     )
     split = len(free.parameters)

@@ -110,6 +110,24 @@ def test_a_signal_that_is_in_the_log_too_soon_comes_early(
     assert [float(time) for _, time in told] == pytest.approx([1.0, 0.5], abs=0.02)
 
 
+def test_a_delay_that_may_be_more_than_is_fitted_is_told_so(
+    bondgraph: Command, folder: Path
+) -> None:
+    """The current of R and L comes four samples late."""
+    t = np.arange(4000) / 100.0
+    drive, rate = np.sign(np.sin(7.0 * t)), np.exp(-0.01 * 3.0 / 0.06)
+    y = np.zeros(len(t))
+    for k in range(1, len(t)):
+        y[k] = drive[k - 1] / 3.0 + (y[k - 1] - drive[k - 1] / 3.0) * rate
+    y = np.roll(y, 4) + np.random.default_rng(1).normal(0.0, 0.005, len(t))
+    text = "bg 1\nmodel M { param R = 2 Ohm; param L = 50 mH; Se:U -> 1:i -> R:R"
+    text += "; i -> I:L; i -> Df:y }"
+    (folder / "rl.bg").write_text(text)
+    write_log(Log(t, {"U": drive, "y": y}, {}, {}), "log.csv")
+    done = bondgraph("fit", "rl.bg", "log.csv", "-o", "p.toml")
+    assert "  y comes 15 ms late in the log or more: no more is fitted" in done.out
+
+
 def test_what_is_not_told_has_no_interval(bondgraph: Command, folder: Path) -> None:
     text = MODEL.replace("param L", "param S = 1 Ohm; param L")
     text = text.replace("i -> R:R", "i -> R:R; i -> R:S")

@@ -76,6 +76,7 @@ def test_no_delay_is_longer_than_that_of_lines_and_of_a_converter() -> None:
     y = square + 0.3 * np.roll(square, 20) + 0.2 * np.sin(0.9 * TIME) + noise(0.001)
     found = fitted(ONE, U=3.0 * square, y=y)
     assert found.delays and all(abs(d.value) * RATE < 1.51 for d in found.delays)
+    assert any(d.bound for d in found.delays)
 
 
 @pytest.mark.parametrize("second", ["5", "2"])
