@@ -279,8 +279,10 @@ def fit(
     apart = np.where(deviation > 0, deviation, 1.0)
     time = engine.sample_time
     delays = tuple(
-        Delay(name, float(d) * time, math.sqrt(max(v, 0.0)) * time, abs(d) > _AT_BOUND * _LATEST)
-        for name, d, v in zip(runs.names(runs.late), late, np.diag(whole)[count:], strict=True)
+        Delay(name, d * time, math.sqrt(max(v, 0.0)) * time, abs(d) > _AT_BOUND * _LATEST)
+        for name, d, v in zip(
+            runs.names(runs.late), late.tolist(), np.diag(whole)[count:].tolist(), strict=True
+        )
     )
     split = len(free.parameters)
     return Fitted(

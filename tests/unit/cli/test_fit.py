@@ -126,6 +126,8 @@ def test_a_delay_that_may_be_more_than_is_fitted_is_told_so(
     write_log(Log(t, {"U": drive, "y": y}, {}, {}), "log.csv")
     done = bondgraph("fit", "rl.bg", "log.csv", "-o", "p.toml")
     assert "  y comes 15 ms late in the log or more: no more is fitted" in done.out
+    record = json.loads(bondgraph("fit", "rl.bg", "log.csv", "-o", "p.toml", "--json").out)
+    assert record["delays"][1]["signal"] == "y" and record["delays"][1]["bound"] is True
 
 
 def test_what_is_not_told_has_no_interval(bondgraph: Command, folder: Path) -> None:
