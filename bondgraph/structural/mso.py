@@ -57,9 +57,10 @@ class MsoSets(NamedTuple):
     def arrays(self) -> list[Numbers]:
         """The equations of every set, ascending, as arrays."""
         pairs = sorted((e, k) for k, own in enumerate(self.classes) for e in own)
-        held = self.members[:, [k for _, k in pairs]]
-        names = np.array([e for e, _ in pairs], dtype=np.int64)[np.nonzero(held)[1]]
-        ends = np.cumsum(np.count_nonzero(held, axis=1)).tolist()
+        equations = np.array([e for e, _ in pairs], dtype=np.int64)
+        held = self.members.take([k for _, k in pairs], axis=1)
+        names = equations[np.flatnonzero(held) % max(1, len(equations))]
+        ends = np.cumsum(held.sum(axis=1)).tolist()
         return [names[a:b] for a, b in pairwise([0, *ends])]
 
     def all(self) -> list[tuple[int, ...]]:
@@ -204,24 +205,19 @@ def _hyperplanes(batch: _Batch) -> Bools:
 def _inverse(numbers: Numbers) -> Numbers:
     """The inverse of each number of the field, of 0 some number.
 
-    One inversion serves all numbers of a column: it is undone factor by factor (Montgomery,
-    1987). Its own inversions are powers (Fermat).
+    One inversion serves all: pairs are multiplied to one number, and its inverse is taken apart
+    again by the other factor of each pair (Montgomery, 1987).
     """
-    factors = np.ascontiguousarray(np.where(numbers == 0, 1, numbers).T)
-    products = factors.copy()
-    for i in range(1, len(products)):
-        products[i] = products[i - 1] * factors[i] % PRIME
-    inverse, power, exponent = np.ones_like(factors[0]), products[-1], PRIME - 2
-    while exponent:
-        if exponent & 1:
-            inverse = inverse * power % PRIME
-        power = power * power % PRIME
-        exponent >>= 1
-    for i in range(len(products) - 1, 0, -1):
-        products[i] = products[i - 1] * inverse % PRIME
-        inverse = inverse * factors[i] % PRIME
-    products[0] = inverse
-    return products.T
+    levels = [np.where(numbers == 0, 1, numbers).ravel()]
+    while len(levels[-1]) > 1:
+        if len(levels[-1]) % 2:
+            levels[-1] = np.append(levels[-1], 1)
+        levels.append(levels[-1][::2] * levels[-1][1::2] % PRIME)
+    inverse: Numbers = np.array([pow(int(levels.pop()[0]), -1, PRIME)])
+    for factors in reversed(levels):
+        others = factors.reshape(-1, 2)[:, ::-1]
+        inverse = (inverse[: len(others), None] * others % PRIME).ravel()
+    return inverse[: numbers.size].reshape(numbers.shape)
 
 
 def _check(rows: list[list[int]], classes: list[tuple[int, ...]], members: Bools) -> None:
