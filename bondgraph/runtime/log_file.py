@@ -28,6 +28,7 @@ from bondgraph.runtime.log_numbers import (
     Refused,
     Table,
     cells_of,
+    doubles,
     numeric,
     separator_of,
 )
@@ -395,8 +396,7 @@ def _stamps(column: pyarrow.ChunkedArray) -> Array | None:
 
     kind = column.type
     if pyarrow.types.is_timestamp(kind):
-        values = column.cast(pyarrow.int64()).cast(pyarrow.float64(), safe=False)
-        found: Array = np.array(values.to_numpy(zero_copy_only=False), dtype=np.float64)
+        found = doubles(column.cast(pyarrow.int64()).cast(pyarrow.float64(), safe=False))
         return found if kind.unit == "s" else found / _TIMESTAMPS[kind.unit]
     if not (pyarrow.types.is_string(kind) or pyarrow.types.is_large_string(kind)):
         return None
@@ -420,8 +420,7 @@ def _numbers(column: pyarrow.ChunkedArray) -> Array | None:
         )
     ):
         return None
-    values = column.cast(pyarrow.float64(), safe=False).to_numpy(zero_copy_only=False)
-    return np.array(values, dtype=np.float64)  # one that may be written to
+    return doubles(column.cast(pyarrow.float64(), safe=False))
 
 
 def write_parquet(log: Log, path: str) -> None:

@@ -6,6 +6,7 @@ import csv
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from bondgraph.runtime.log import LEFT_OUT, TIME, TIME_UNIT, Array, Log, LogErro
 from bondgraph.runtime.time_column import ISO, candidates, chosen, no_time, seconds, stamp, unit_of
 from bondgraph.text.limits import COLUMNS
 from bondgraph.text.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    import pyarrow
 
 #: How a cell says that there is no sample, in small letters.
 NO_SAMPLE = ("", "nan", "na", "n/a", "null", "none")
@@ -396,10 +400,31 @@ def _by_arrow(text: str, separator: str, columns: int) -> Array | None:
         )
     except pyarrow.ArrowInvalid:
         return None
-    values = np.empty((table.num_rows, columns))
-    for k, column in enumerate(table.columns):
-        values[:, k] = column.to_numpy()
-    return values
+    return np.stack([doubles(column) for column in table.columns], axis=1)
+
+
+def doubles(column: pyarrow.ChunkedArray) -> Array:
+    """The numbers of a column of doubles, NaN where it has none, as an array of its own.
+
+    From its buffers: where pandas is installed, `to_numpy` of pyarrow loads it, which takes longer
+    than to read most logs.
+
+    >>> import pyarrow
+    >>> doubles(pyarrow.chunked_array([[1.0, None], [], [2.0]], pyarrow.float64())).tolist()
+    [1.0, nan, 2.0]
+    """
+    parts = [np.empty(0)]
+    for chunk in column.chunks:
+        known, numbers = chunk.buffers()
+        own = slice(chunk.offset, chunk.offset + len(chunk))
+        if numbers is None:
+            parts.append(np.full(len(chunk), np.nan))
+        elif known is None:
+            parts.append(np.frombuffer(numbers, np.float64)[own])
+        else:
+            bits = np.unpackbits(np.frombuffer(known, np.uint8), bitorder="little")
+            parts.append(np.where(bits[own], np.frombuffer(numbers, np.float64)[own], np.nan))
+    return np.concatenate(parts)
 
 
 def _by_numpy(lines: list[str], separator: str, columns: int) -> Array | None:

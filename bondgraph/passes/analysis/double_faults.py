@@ -12,8 +12,6 @@ from functools import partial
 from itertools import combinations
 from random import Random
 
-import networkx as nx
-
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.parity import parity
 from bondgraph.exact.plant import ExactUnavailable, Plant
@@ -141,5 +139,7 @@ def _outside(numbers: Numbers, columns: list[Row], others: Mapping[int, Row]) ->
 
 def _any_two(alike: _Suspects, single: int) -> tuple[tuple[int, ...], ...]:
     """The largest sets of groups any two of which look like a single one."""
+    import networkx as nx
+
     graph = nx.Graph(pair for pair, singles in alike.items() if single in singles)
     return tuple(sorted(tuple(sorted(clique)) for clique in nx.find_cliques(graph)))

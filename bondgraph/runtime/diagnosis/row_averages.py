@@ -8,6 +8,7 @@ what a row shows is seen better beside the rows before it.
 from __future__ import annotations
 
 import math
+from itertools import chain, combinations
 
 import numpy as np
 
@@ -82,20 +83,37 @@ def with_before(values: Array, weights: Array) -> Array:
 
 def _weights(rest: Array) -> Array:
     """By how much the rows before make the next one smaller the other way round, (LAGS,)."""
-    from scipy.optimize import nnls
-
     best = np.zeros(LAGS)
     lags = np.stack([rest[LAGS - k : len(rest) - k] for k in range(LAGS + 1)]) if (
         len(rest) > LAGS) else np.empty((LAGS + 1, 0))  # fmt: skip
     lags = lags[:, np.isfinite(lags).all(axis=0)]
     count = lags.shape[1]
-    whole = float(np.square(lags[0]).sum())
-    if not whole > 0.0:
+    products = lags @ lags.T
+    if not products[0, 0] > 0.0:
         return best
     least = 0.0
     for order in range(1, min(LAGS, count // _EACH) + 1):
-        found, left = nnls(lags[1 : order + 1].T, -lags[0])
-        cost = count * math.log(max(left**2 / whole, 1e-12)) + order * math.log(count)
+        found, left = _positive(products[: order + 1, : order + 1] / products[0, 0])
+        cost = count * math.log(max(left, 1e-12)) + order * math.log(count)
         if cost < least:
             best, least = np.append(found, np.zeros(LAGS - order)), cost
     return best
+
+
+def _positive(products: Array) -> tuple[Array, float]:
+    """The weights of columns 1.. that take most off column 0, none negative, and what they leave.
+
+    Of the `products` of the columns with each other. It is the best of all choices of columns whose
+    weights by least squares are positive: those that are not zero at the optimum are such a choice
+    (Lawson and Hanson, 1974, chapter 23). For four columns this is quicker than to load a solver.
+    """
+    most = len(products) - 1
+    best, least = np.zeros(most), float(products[0, 0])
+    for chosen in chain.from_iterable(combinations(range(1, most + 1), n + 1) for n in range(most)):
+        own = list(chosen)
+        weights = -np.linalg.lstsq(products[np.ix_(own, own)], products[own, 0], rcond=None)[0]
+        left = float(products[0, 0] + products[0, own] @ weights)
+        if left < least and (weights > 0.0).all():
+            best, least = np.zeros(most), left
+            best[np.array(own) - 1] = weights
+    return best, least

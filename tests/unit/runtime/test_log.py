@@ -172,6 +172,23 @@ def test_without_pyarrow_one_line_says_what_to_install(tmp_path: Path) -> None:
     assert "bondgraph-arr[robot]" in done.stdout and done.stdout.count("\n") == 1
 
 
+@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+def test_a_log_is_read_without_pandas(tmp_path: Path, suffix: str) -> None:
+    """It takes longer to load than most logs to read."""
+    path = tmp_path / f"log.{suffix}"
+    columns = {"u": np.where(np.arange(5000) % 7, 1.5, np.nan), "n": np.arange(5000.0)}
+    write_log(Log(np.arange(5000) / 1000, columns, {}, {}), path)
+    script = (
+        "import sys; from bondgraph.runtime.log_file import read_log\n"
+        f"log = read_log({str(path)!r})\n"
+        "print(len(log.time), float(log.columns['n'].sum()))\n"
+        "print('pyarrow' in sys.modules, 'pandas' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.stdout.split() == ["5000", "12497500.0", "True", "False"], done.stderr
+    assert read_log(path).columns["u"] == pytest.approx(columns["u"], nan_ok=True)
+
+
 def test_files_that_cannot_be_read_or_written(tmp_path: Path) -> None:
     log = Log(np.zeros(2), {"a": np.ones(2)}, {}, {})
     with pytest.raises(LogError, match="cannot be read"):

@@ -6,11 +6,18 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import nnls
 from scipy.signal import lfilter
 
 from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.noise import noise
-from bondgraph.runtime.diagnosis.row_averages import LAGS, _weights, lasting, with_before
+from bondgraph.runtime.diagnosis.row_averages import (
+    LAGS,
+    _positive,
+    _weights,
+    lasting,
+    with_before,
+)
 from bondgraph.runtime.diagnosis.rows import Average, Row, all_of, averaged
 from bondgraph.runtime.diagnosis.tuning import Limit, height
 from bondgraph.runtime.log import Array
@@ -167,3 +174,20 @@ def test_a_weight_needs_six_rows_for_itself_and_each_before_it(rows: int, last: 
     """
     values = np.resize([1.0] * 4 + [-1.0] * 4, rows)
     assert _weights(values)[3] == pytest.approx(last, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_weights_are_those_of_least_squares_that_allow_none_below_zero(seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    columns = draw.standard_normal((LAGS + 1, 60)) + 0.7 * draw.standard_normal(60)
+    columns *= draw.choice([-1.0, 1.0], (LAGS + 1, 1))
+    weights, left = _positive(columns @ columns.T)
+    expected, distance = nnls(columns[1:].T, -columns[0])
+    assert weights == pytest.approx(expected, abs=1e-9)
+    assert left == pytest.approx(distance**2)
+
+
+def test_columns_that_are_one_another_share_their_weight() -> None:
+    products = np.array([[1.0, -0.5, -0.5], [-0.5, 1.0, 1.0], [-0.5, 1.0, 1.0]])
+    weights, left = _positive(products)
+    assert weights.sum() == pytest.approx(0.5) and left == pytest.approx(0.75)
