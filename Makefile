@@ -45,9 +45,10 @@ demo: $(VENV)/run.stamp ## the paper's experiments: simulated, watched, written 
 	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] && command -v xdg-open > /dev/null; then \
 	xdg-open demo/khepera.html; else echo "open demo/khepera.html in a browser"; fi
 
-# Side by side, a file at a time: what the tests of a file share is made once.
+# Side by side, a file at a time: what the tests of a file share is made once. Their own `make` is
+# none of this one's jobs.
 test: $(VENV)/dev.stamp ## all tests
-	$(BIN)/python -m pytest -n $(or $(JOBS),auto) --maxprocesses 8 --dist loadfile --durations 60 --durations-min 5 $(TESTS)
+	env -u MAKEFLAGS -u MFLAGS $(BIN)/python -m pytest -n $(or $(JOBS),auto) --maxprocesses 8 --dist loadfile --durations 60 --durations-min 5 $(TESTS)
 
 check: lint types imports test site wheel ## all that CI runs
 

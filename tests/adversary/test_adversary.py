@@ -139,7 +139,7 @@ def test_names_that_mean_something_elsewhere(words: str, tmp_path: Path) -> None
     self_tests(tmp_path / "out")
 
 
-@pytest.mark.parametrize("seed", [1, 2, 4, 5, 7, 8, 10, 11, 13, 14, 16, 19, 21, 22])
+@pytest.mark.parametrize("seed", [1, 2, 4, 5, 7, 8, 11, 13])
 def test_a_random_graph(seed: int, tmp_path: Path) -> None:
     plant = generate(seed, nonlinear=False)
     path = tmp_path / "random.bg"

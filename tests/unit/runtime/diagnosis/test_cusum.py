@@ -110,7 +110,7 @@ def test_peaks_of_a_restless_machine_stretch_the_heights() -> None:
     limits = _limits()
     limits[0, 3] = height(1.0, 1.0 / 3000.0)
     plain, learned = 0, 0
-    for seed in range(5):
+    for seed in range(3):
         values = _restless(seed, 12_000)
         plain += sum(k > 6000 for k in _alarms(Cusum(1, learns=False), values, limits))
         learned += sum(k > 6000 for k in _alarms(Cusum(1), values, limits))
