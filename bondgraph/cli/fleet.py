@@ -27,8 +27,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.fleet.workers import Result
     from bondgraph.runtime.monitoring.watch_settings import WatchSettings
 
-_ALONE = ("follow", "serial", "mqtt", "journal", "publish", "states", "heartbeat", "metrics",
-          "silence")  # fmt: skip
+_ALONE = ("follow", "serial", "mqtt", "journal", "publish", "heartbeat", "metrics", "silence")
 _SHORTEST = 9  # letters of a cell that is cut
 _HEAD = ("log", "from", "to s", "lasts s", "verdict", "class", "since s", "worst")
 
@@ -44,18 +43,35 @@ def wrong(args: Namespace) -> str:
         return "no logs: name files, folders or patterns"
     if args.scheduler and args.jobs is not None:
         return "the workers of --scheduler are as many as they are: leave out --jobs"
+    return _wrong_states(args.states, args.logs) if args.states else ""
+
+
+def _wrong_states(folder: str, logs: Sequence[str]) -> str:
+    """What is wrong with a folder for states, "" if nothing: none is written over a log."""
+    from bondgraph.runtime.fleet.log_paths import is_inside
+
+    if folder.lower().endswith((".csv", ".parquet")):
+        return f"--states of many logs is a folder, with a file for each: not {folder}"
+    if os.path.exists(folder) and not os.path.isdir(folder):
+        return f"--states of many logs is a folder, and {folder} is a file"
+    holds = next((name for name in logs if is_inside(name, folder)), None)
+    if holds is not None:
+        return f"--states {folder} is where logs are ({holds}): name another folder"
     return ""
 
 
 def run(args: Namespace, tuning: Tuning | None, fault: int) -> int:
     """Watch all logs; the exit status, `fault` if it is asked for and there is one."""
     from bondgraph.runtime.fleet.kept_results import KeptResults
-    from bondgraph.runtime.fleet.log_paths import log_files
+    from bondgraph.runtime.fleet.log_paths import is_inside, log_files, with_states
     from bondgraph.runtime.fleet.watched_log import BAD
     from bondgraph.runtime.fleet.watcher import digest
 
     output = os.path.abspath(args.output) if args.output else None  # may be in a folder of logs
     items = [item for item in log_files(args.logs, note) if item.path != output]
+    if args.states:  # so may these
+        items = [with_states(i, args.states) for i in items if not is_inside(i.path, args.states)]
+        _make(args.states)
     if not items:
         raise Trouble(f"no log to watch in {listed(args.logs)}")
     settings = _settings(args, tuning)
@@ -74,11 +90,18 @@ def run(args: Namespace, tuning: Tuning | None, fault: int) -> int:
             print(f"error: {log.log}: {log.error}", file=sys.stderr)
     if not args.lines:
         print("\n".join(lines(settings.compilation.graph.name, found, width())))
-        if args.output:
-            print(f"\nWritten to {args.output}")
+        if written := list(filter(None, (args.output, args.states))):
+            print(f"\nWritten to {listed(written, 'and')}")
     if all(log.state == BAD for log in found):
         return 1
     return fault if args.fail_on_fault and any(log.alarms for log in found) else 0
+
+
+def _make(folder: str) -> None:
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise Trouble(f"--states {folder} cannot be made: {error.strerror}") from error
 
 
 def _settings(args: Namespace, tuning: Tuning | None) -> WatchSettings:
@@ -109,7 +132,11 @@ def _found(
 
     keys = [item.key(digest) for item in items]
     known = kept.known if kept is not None else {}
-    done = {k: known[key] for k, key in enumerate(keys) if key in known}
+    done = {
+        k: known[key]
+        for k, key in enumerate(keys)
+        if key in known and (not items[k].states or os.path.exists(items[k].states))
+    }
     if done:
         verb = "was" if len(done) == 1 else "were"
         note(f"{len(done)} of {plural(len(items), 'log')} {verb} watched before with the same model"

@@ -58,7 +58,7 @@ def arguments(parser: ArgumentParser) -> None:
         help="print each verdict as a line of JSON (docs/json.md)")  # fmt: skip
     add("--states", metavar="FILE",
         help="a row for each sample: residuals, thresholds, states, class (.csv or"
-        " .parquet)")  # fmt: skip
+        " .parquet; of a fleet a folder)")  # fmt: skip
     add("--heartbeat", metavar="S", type=seconds,
         help="tell the state of each residual every S seconds")  # fmt: skip
     add("--metrics", metavar="[HOST:]PORT", type=listening,
@@ -189,7 +189,8 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     kept = states_file(args.states, engine.residuals) if args.states else nullcontext()
     with kept as states, _metrics(args.metrics) as observe, _stop() as stop:
         publisher = _publisher(verdicts, args.journal, journal, watched)
-        parts = parts._replace(states=states, observe=observe, publisher=publisher)
+        listeners = (states,) if states else ()
+        parts = parts._replace(listeners=listeners, observe=observe, publisher=publisher)
         untaken = Monitor(parts, watched).run(stop)
     if untaken:
         how = "they are sent after the next start" if args.journal else "--journal would keep them"

@@ -36,6 +36,32 @@ def log_files(names: Iterable[str], tell: Callable[[str], object]) -> list[LogFi
     return list(found.values())
 
 
+def with_states(log: LogFile, folder: str) -> LogFile:
+    """A log whose states are written below a folder, under the name by which it was called.
+
+    A name that is no table has `.csv` behind it; a path that leads out of the working folder is
+    there in full. So two logs never share a file, whichever are watched together.
+
+    >>> with_states(LogFile("runs/may.csv", "/a/runs/may.csv"), "/out").states
+    '/out/runs/may.csv'
+    >>> with_states(LogFile("../may.jsonl", "/b/may.jsonl"), "/out").states
+    '/out/b/may.jsonl.csv'
+    """
+    name = os.path.normpath(log.name)
+    if os.path.isabs(name) or name.startswith(os.pardir):
+        name = os.path.splitdrive(log.path)[1].lstrip(os.sep)
+    kept = name if name.lower().endswith((".csv", ".parquet")) else f"{name}.csv"
+    return log._replace(states=os.path.join(os.path.abspath(folder), kept))
+
+
+def is_inside(path: str, folder: str) -> bool:
+    """Whether a path, or the folder of a pattern before its first wildcard, is in a folder."""
+    while _pattern(path):
+        path = os.path.dirname(path) or os.curdir
+    inner, outer = os.path.realpath(path), os.path.realpath(folder)
+    return os.path.commonpath([inner, outer]) == outer
+
+
 def _pattern(name: str) -> bool:
     return has_magic(name) and not os.path.exists(name)
 

@@ -6,8 +6,8 @@ import hashlib
 import json
 import os
 import pickle
-from collections.abc import Callable
-from contextlib import closing
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing, contextmanager
 from functools import lru_cache
 from threading import Lock
 from typing import Protocol
@@ -20,6 +20,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.sample_pipeline import Monitor
 from bondgraph.runtime.monitoring.sources.file import LoadedLog, file_source
 from bondgraph.runtime.monitoring.sources.sample_source import Source
+from bondgraph.runtime.monitoring.states import States, states_file
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.runtime.monitoring.watch_parts import Decision, Parts, Stop
 from bondgraph.runtime.monitoring.watch_settings import (
@@ -32,6 +33,7 @@ from bondgraph.text.diagnostic import CompileError, Trouble
 from bondgraph.text.numerals import plural
 from bondgraph.text.regular_file import check_regular
 from bondgraph.text.tuples import NamedTuple
+from bondgraph.text.whole_file import naming
 
 _RATES = 16  # and filters of which engines are kept
 
@@ -50,6 +52,10 @@ class Item(Protocol):
     def path(self) -> str:
         """What it is called in verdicts."""
 
+    @property
+    def states(self) -> str:
+        """The file of its states, "" for none."""
+
     def source(self, form: Form) -> Source:
         """Its samples; raises LogError."""
 
@@ -58,10 +64,14 @@ class Item(Protocol):
 
 
 class LogFile(NamedTuple):
-    """A log in a file; `name` is as it was called, `path` is found from everywhere."""
+    """A log in a file; `name` is as it was called, `path` is found from everywhere.
+
+    So are its `states`, a file that is written while it is watched.
+    """
 
     name: str
     path: str
+    states: str = ""
 
     def source(self, form: Form) -> Source:
         """See `Item`."""
@@ -88,6 +98,11 @@ class LogTable(NamedTuple):
     def path(self) -> str:
         """See `Item`."""
         return self.name
+
+    @property
+    def states(self) -> str:
+        """See `Item`."""
+        return ""
 
     def source(self, form: Form) -> Source:
         """See `Item`."""
@@ -117,7 +132,9 @@ class Watcher:
         except (Trouble, CompileError) as trouble:
             error = _without_place(trouble, item)
         except OSError as trouble:
-            error = f"cannot be read: {trouble.strerror or trouble}"
+            written = item.states and trouble.filename == item.states
+            what = f"its states cannot be written to {item.states}" if written else "cannot be read"
+            error = f"{what}: {trouble.strerror or trouble}"
         except Exception as trouble:
             what = f"the watch failed: {type(trouble).__name__}: {trouble}"
             help = "`bondgraph monitor` on this log alone says more with BONDGRAPH_TRACEBACK=1"
@@ -138,13 +155,14 @@ class Watcher:
             compilation = made.settings.compilation
             heard.extent = Extent(engine.residuals, compilation.diagnosis_model.sees)
             heard.told += made.told
-            heard.parts = parts._replace(
-                sinks=[lambda _, verdict: heard.said.append(verdict)],
-                note=lambda text: heard.told.append(text.removeprefix(f"{source.name}: ")),
-                states=heard.extent,
-            )
-            heard.monitor = Monitor(heard.parts, what_is_watched(compilation, engine))
-            heard.monitor.run(Stop())
+            with _states(item.states, engine.residuals) as states:
+                heard.parts = parts._replace(
+                    sinks=[lambda _, verdict: heard.said.append(verdict)],
+                    note=lambda text: heard.told.append(text.removeprefix(f"{source.name}: ")),
+                    listeners=(heard.extent, *states),
+                )
+                heard.monitor = Monitor(heard.parts, what_is_watched(compilation, engine))
+                heard.monitor.run(Stop())
 
     def _at(self, rate: float, bandwidth: float | None) -> _Made:
         """What watches at a rate with a filter; raises Trouble or CompileError."""
@@ -163,6 +181,18 @@ class Watcher:
                 del self._made[next(iter(self._made))]
             self._made[rate, bandwidth] = found
         return found
+
+
+@contextmanager
+def _states(path: str, residuals: Sequence[str]) -> Iterator[list[States]]:
+    """What writes a file of states, with the folders above it; none without a path."""
+    if not path:
+        yield []
+        return
+    with naming(path):
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+    with states_file(path, residuals) as states:
+        yield [states]
 
 
 class _Made(NamedTuple):

@@ -304,8 +304,8 @@ class Monitor:
         for verdict in said:
             self._say(verdict)
         self._disturbances.values(piece.time, decided.valid, changes)
-        if parts.states is not None:
-            parts.states.add(piece.time, decided, told)
+        for listener in parts.listeners:
+            listener.add(piece.time, decided, told)
         self._time = self._newest
 
     @property

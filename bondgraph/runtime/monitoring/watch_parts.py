@@ -76,7 +76,7 @@ class Parts(NamedTuple):
     """What a monitor is made of.
 
     `columns` picks the signals of the engine out of a log, (n, signals); raises LogError where
-    some are missing. `sinks` hear every verdict with its number, `states` gets every sample with
+    some are missing. `sinks` hear every verdict with its number, `listeners` get every sample with
     what it was decided on. Only while the machine is `operating` its samples count. `note` is told
     which column was taken for the time. The rate may be one that was `asked` for. A live source is
     silent after `silence` s without a sample. Each `heartbeat` s the state is told, if there is
@@ -94,7 +94,7 @@ class Parts(NamedTuple):
     operating: Operating | None = None
     note: Callable[[str], None] = lambda text: None
     asked: bool = False
-    states: Listener | None = None
+    listeners: Sequence[Listener] = ()
     heartbeat: float | None = None
     silence: float = SILENCE
     observe: Callable[[Snapshot], None] | None = None

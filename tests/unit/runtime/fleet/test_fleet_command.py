@@ -208,6 +208,40 @@ def test_what_is_done_is_not_done_again(logs: Path, monitored: Monitored) -> Non
     assert "1 of 1 log was" in monitored(*words, "--bandwidth", "15").err
 
 
+def test_each_log_has_the_states_of_a_watch_of_its_own(
+    bad_logs: Path, monitored: Monitored
+) -> None:
+    done = monitored("logs", "--states", "logs/states", "-o", "v.csv")
+    assert done.out.endswith("Written to v.csv and logs/states\n")
+    written = {str(p.relative_to("logs/states")) for p in Path("logs/states").rglob("*.*")}
+    whole = {f"logs/{name}" for name in [*NAMES, "damaged.csv"]}
+    assert whole <= written and not written & {"logs/empty.csv", "logs/gone.csv"}
+    for name in NAMES[1:3]:
+        alone = f"alone{Path(name).suffix}"
+        assert monitored(bad_logs / name, "--states", alone).status == 0
+        assert Path("logs/states/logs", name).read_bytes() == Path(alone).read_bytes()
+    Path("logs/states/logs", NAMES[0]).unlink()
+    again = monitored("logs", "--states", "logs/states", "-o", "v.csv")
+    assert "4 of 11 logs were watched before" in again.err  # bad ones have none
+    assert Path("logs/states/logs", NAMES[0]).exists()
+
+
+def test_states_that_cannot_be_written_are_told_and_end_nothing(
+    logs: Path, monitored: Monitored
+) -> None:
+    Path("states/logs/more").mkdir(parents=True)
+    Path("states/logs/a_healthy.csv").mkdir()
+    done = monitored("logs", "--states", "states")
+    assert done.status == 0 and "4 logs" in done.out and "1 bad" in done.out
+    path = Path("states/logs/a_healthy.csv").resolve()
+    assert f"error: logs/a_healthy.csv: its states cannot be written to {path}: " in done.err
+    assert Path("states/logs/b_friction.csv").stat().st_size > 10_000
+    Path("plain").touch()
+    done = monitored("logs", "--states", "plain/states")
+    assert done.status == 1 and done.out == "" and done.err.count("\n") == 1
+    assert "--states plain/states cannot be made: " in done.err
+
+
 def test_an_output_in_the_folder_of_the_logs_is_no_log(logs: Path, monitored: Monitored) -> None:
     for _ in range(2):
         assert "4 logs" in monitored("logs", "-o", "logs/v.parquet").out
@@ -287,7 +321,8 @@ def test_a_damaged_record_of_what_is_done_counts_as_none(logs: Path, monitored: 
 @pytest.mark.parametrize(
     "words",
     [["--follow"], ["--serial", "/dev/x"], ["--mqtt", "h/t"], ["--journal", "j"],
-     ["--publish", "h/t"], ["--states", "s.csv"], ["-"], ["--jobs", "2", "--scheduler", "tcp://x"]],
+     ["--publish", "h/t"], ["--states", "s.csv"], ["--states", "logs"], ["--states", "."],
+     ["--states", "logs/a_healthy.csv"], ["-"], ["--jobs", "2", "--scheduler", "tcp://x"]],
 )  # fmt: skip
 def test_what_is_for_one_machine_is_refused(
     words: list[str], logs: Path, monitored: Monitored

@@ -49,7 +49,7 @@ def test_paths_frames_and_logs_together(model: Compilation, motors: Path) -> Non
     assert table["log"][3:] == ["log 4", "log 5"]
     assert table["class"][2:] == ["J or f or load"] * 3
     assert table["since"][2:] == pytest.approx([motor.ONSET] * 3, abs=0.1)
-    assert table["end"] == pytest.approx([4.999, 4.998, 5.999, 5.999, 5.999])
+    assert table["end"] == pytest.approx([2.999, 2.998, 4.499, 5.999, 5.999])
     assert {len(column) for column in found.rows().values()} == {2 * 4 + 3 * 6}
     assert repr(found) == "Fleet(2 healthy, 3 fault)"
     assert found[0].state == "healthy" and len(found) == 5 and len(list(found)) == 5
