@@ -302,10 +302,12 @@ class Compilation:
         pieces = stretches(engine, logs.items(), columns, operating)
         own = units(self.graph)
         if self.options.bandwidth is not None:
-            return fit(engine, pieces, chosen, tolerances, own, noise or {}, progress)
+            return fit(
+                engine, pieces, chosen, tolerances, own, noise or {}, progress, model.memories
+            )
         usual = bandwidth_for(1.0 / engine.sample_time, sum(log.rows for log in logs.values()))
         return fit_by_filter(
-            engine, pieces, chosen, tolerances, own, noise or {}, usual, progress
+            engine, pieces, chosen, tolerances, own, noise or {}, usual, progress, model.memories
         )
 
     def simulate(

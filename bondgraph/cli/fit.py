@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph import Options
 from bondgraph.cli import console
-from bondgraph.cli.log_options import logged, read_logs, times_of
+from bondgraph.cli.log_options import behind_gaps, logged, read_logs, times_of
 from bondgraph.cli.options import (
     bandwidth,
     check_read,
@@ -227,6 +227,8 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
     lines += ["", f"How well it fits (filter of {found.bandwidth:.4g} rad/s)"]
     for left in found.left:
         lines += [f"  {text}" for text in _fits(left, bool(found.suspects))]
+    lost = {left.residual: left.lost for left in found.left if left.lost}
+    lines += [f"  {text}" for text in behind_gaps(lost)]
     lines += _suspected(found)
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:

@@ -82,3 +82,18 @@ def times_of(logs: list[tuple[str, Log]]) -> dict[str, str]:
     for name, time in times.items():
         note(f"{name}: time is {time}")
     return times
+
+
+def behind_gaps(lost: Mapping[str, float]) -> list[str]:
+    """For how many seconds residuals were of no use behind gaps of the logs, in words."""
+    from bondgraph.text.numerals import listed
+
+    found = []
+    for seconds in dict.fromkeys(lost.values()):
+        names = [name for name, own in lost.items() if own == seconds]
+        text = "is not used: it keeps" if len(names) == 1 else "are not used: they keep"
+        found.append(
+            f"For {seconds:.4g} s behind gaps {listed(names, 'and')} {text} something of where a"
+            " log began, and nobody knows where that is after a gap"
+        )
+    return found

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph import Options
 from bondgraph.cli import console
-from bondgraph.cli.log_options import logged, read_logs, times_of
+from bondgraph.cli.log_options import behind_gaps, logged, read_logs, times_of
 from bondgraph.cli.options import (
     bandwidth,
     isolating,
@@ -79,7 +79,7 @@ def run(args: Namespace) -> int:
     if bool(args.logs) == bool(args.simulate):
         raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
-        compilation, engine, logs, times = _logs(args)
+        compilation, engine, logs, later, times = _logs(args)
         usual = _usual(1.0 / engine.sample_time, max(map(len, logs), default=0), args.window)
         wanted = args.bandwidth or _wanted(engine, usual, logs, _FACTORS)
         window = args.window or WINDOW / usual
@@ -96,6 +96,7 @@ def run(args: Namespace) -> int:
                         args.false_alarms,
                         window,
                         _part(progress, k, len(wanted)),
+                        later,
                     )
                 )
                 if not args.bandwidth and len(found) == len(wanted) and _climbs(found):
@@ -145,8 +146,11 @@ def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[fl
     return lambda share: progress((k + share) / parts)
 
 
-def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, str]]:
-    """The model, an engine of it, what it reads from each log, on its grid, and by what time."""
+def _logs(
+    args: Namespace,
+) -> tuple[Compilation, Engine, list[Array], list[bool], dict[str, str]]:
+    """The model, an engine of it, what it reads from each log, on its grid, which of these parts
+    are behind a gap, and by what time."""
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
     from bondgraph.runtime.monitoring.watch_settings import engine_of, something_to_watch
@@ -175,7 +179,8 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, 
     mapping = read_map(args.map, engine.signals) if args.map else None
     times = times_of(read)
     found = stretches(engine, read, mapping, args.operating, args.rate is not None)
-    return compilation, engine, [piece.samples for _, piece in found], times
+    samples, later = [p.samples for _, p in found], [bool(p.anew) for _, p in found]
+    return compilation, engine, samples, later, times
 
 
 def _climbs(found: list[Tuned]) -> bool:
@@ -235,6 +240,7 @@ def _result(compilation: Compilation, best: Tuned, found: list[Tuned]) -> dict[s
         "tried": [{"bandwidth": t.tuning.bandwidth, "score": _score(t, found)} for t in found],
         "window": best.window,
         "limits": [{"residual": n, **x._asdict()} for n, x in best.tuning.limits.items()],
+        "lost": dict(best.lost),
         "faults": [
             {
                 "fault": s.hypothesis.fault,
@@ -290,6 +296,8 @@ def _lines(
         else:
             rows.append(row)
     lines += [*console.columns(limits), ""]
+    if best.lost:
+        lines += [*behind_gaps(best.lost), ""]
     if alone:
         lines += ["One log does not tell how far others stand apart: of another day or machine, one"
                   " that stands elsewhere is in alarm for as long as it does. Give several logs, or"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from bondgraph.runtime.diagnosis.noise import (
     uncovered,
     within,
 )
+from bondgraph.runtime.diagnosis.remembered import from_the_start
 from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
 from bondgraph.runtime.diagnosis.shown_sizes import Shown, ShownSizes
@@ -49,11 +51,15 @@ _APART = 16  # rows without a value between two logs, more than noise is taken t
 
 
 class Tuned(NamedTuple):
-    """A tuning with what follows from it, for one bandwidth."""
+    """A tuning with what follows from it, for one bandwidth.
+
+    `lost` are the seconds of the logs, by residual, behind gaps where nobody knows its start.
+    """
 
     tuning: Tuning
     shown: tuple[Shown, ...]
     window: float
+    lost: Mapping[str, float] = MappingProxyType({})
 
 
 def tune(
@@ -64,14 +70,17 @@ def tune(
     false_alarms: float,
     window: float = 2.0,
     progress: Callable[[float], None] = lambda _: None,
+    later: Sequence[bool] = (),
 ) -> Tuned:
     """Limits for an engine, from `logs` of healthy machines: (n, signals) samples each.
 
     `false_alarms` wanted per hour; a fault is taken to be there for a `window` of seconds, and for
     as long as the longest delay besides. Every log may be of another machine, with parameters of
-    its own inside their tolerances. Raises ValueError where the logs are too short to be of use.
+    its own inside their tolerances. Some are the `later` parts of a log, behind a gap: there
+    residuals that keep something of their first sample tell nothing. Raises ValueError where the
+    logs are too short to be of use.
     """
-    work = _Work(engine, model, logs)
+    work = _Work(engine, model, logs, later)
     window += engine.lags[-1]
     total = 2 * len(logs)
     learned = work.learned(logs, lambda k: progress(k / total))
@@ -92,9 +101,12 @@ def tune(
     shows = ShownSizes(engine, model, work.all, found, window, rigid)
     held = np.array([limit.held for limit in limits(found, engine.residuals)])
     for k, log in enumerate(logs):
-        shows.add(log, work.thresholds(held))
+        least = int(work.lasts[k].min(initial=len(log)))
+        shows.add(log[:least], work.thresholds(held, work.lasts[k]))
         progress((len(logs) + k + 1) / total)
-    return Tuned(tuning._replace(shows=shows.by_fault(), window=window), shows.shown(), window)
+    lost = {n: s for n, s in zip(engine.residuals, work.lost.tolist(), strict=True) if s}
+    whole = tuning._replace(shows=shows.by_fault(), window=window)
+    return Tuned(whole, shows.shown(), window, lost)
 
 
 class _Noise(NamedTuple):
@@ -116,9 +128,22 @@ class _Noise(NamedTuple):
 
 
 class _Work:
-    def __init__(self, engine: Engine, model: DiagnosisModel, logs: Sequence[Array]) -> None:
+    def __init__(
+        self,
+        engine: Engine,
+        model: DiagnosisModel,
+        logs: Sequence[Array],
+        later: Sequence[bool] = (),
+    ) -> None:
         self.engine = engine
         self.model = model
+        #: For how many samples of each log each residual knows its start.
+        self.lasts = [
+            from_the_start(engine, model.memories, log, own)
+            for log, own in zip(logs, later or (False,) * len(logs), strict=True)
+        ]
+        far = [len(log) - own for log, own in zip(logs, self.lasts, strict=True)]
+        self.lost = engine.sample_time * np.sum(far, axis=0, initial=0.0)
         sizes = Sizes(engine)
         for log in logs:
             sizes.add(log)
@@ -140,7 +165,7 @@ class _Work:
         """What each log tells, but for those that are no longer than the warm-up."""
         found = []
         for k, log in enumerate(logs):
-            own = self.noise(log)
+            own = self.noise(log, self.lasts[k])
             if own is not None:
                 found.append(own)
             progress(k + 1)
@@ -160,9 +185,9 @@ class _Work:
                 self.beside[k] = max(self.beside[k], CAREFUL * stepped(rows))
         return bool(self.walk.any())
 
-    def thresholds(self, held: Array) -> WholeThresholds:
+    def thresholds(self, held: Array, lasts: Array | None = None) -> WholeThresholds:
         """Those of a log that begins, where so much of what commands make is in the noise."""
-        return WholeThresholds(self.engine, self.model, self.tolerated, self.walk, held)
+        return WholeThresholds(self.engine, self.model, self.tolerated, self.walk, held, lasts)
 
     def _parts(self, samples: Array) -> Iterator[Array]:
         """Whole rows of a log, some thousand samples at a time."""
@@ -177,34 +202,35 @@ class _Work:
         moved = Bank(copied(self.engine), gains, self.model.nominal).run(samples)
         return np.asarray(np.abs(moved).max(axis=(0, 1), initial=0.0))
 
-    def noise(self, samples: Array) -> _Noise | None:
+    def noise(self, samples: Array, lasts: Array | None = None) -> _Noise | None:
         """What is left of the residuals once parameters are taken as they fit best.
 
-        None for a log that is not longer than the warm-up.
+        For as many samples as each residual `lasts`. None for a log that is not longer than the
+        warm-up.
         """
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
         start += -start % self.every  # the rows are those of a monitor, which begin with the log
         if len(samples) <= start + self.every:
             return None
         history = History(self.spread)
-        whole = next(self._chunks(samples[start:], samples[:start]))[0].value
+        whole = next(self._chunks(samples[start:], samples[:start], lasts))[0].value
         rough = np.std(np.diff(whole[:: self.every], axis=0), axis=0)
         weight = 1.0 / np.maximum(rough, self.least + _NOTHING) ** 2
         every, peaks = [], []
-        for batch, slopes, doubt in self._chunks(samples[start:], samples[:start]):
+        for batch, slopes, doubt in self._chunks(samples[start:], samples[:start], lasts):
             for k, row, peak in self._rows(batch, slopes, doubt):
                 history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
                 every.append(row)
                 peaks.append(peak)
         found = history.fit()
         # a residual with fewer stages than others is watched while these warm up
-        early = list(self._chunks(samples[:start], samples[:0]))
+        early = list(self._chunks(samples[:start], samples[:0], lasts))
         excess = [_beyond(chunk[0]) for chunk in early]
         first = [own for chunk in early for own in self._rows(*chunk)]
         rest, spaced = [], []
         rows = sum(int(batch.valid.all(axis=1).sum()) for batch, _, _ in early)
         bound = np.zeros(len(self.engine.residuals))
-        for batch, slopes, _ in self._chunks(samples[start:], samples[:start]):
+        for batch, slopes, _ in self._chunks(samples[start:], samples[:start], lasts):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)
             rest.append(np.where(batch.valid, left, np.nan))
             spaced.append(rest[-1][self.every - 1 :: self.every])
@@ -237,9 +263,11 @@ class _Work:
             row = Row(0.0, np.empty((0, len(self.engine.signals))), self.engine, *own)
             yield k, row._replace(average=mean), _beyond(Batch(value, valid, bound))
 
-    def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array, Array]]:
+    def _chunks(
+        self, samples: Array, before: Array, lasts: Array | None
+    ) -> Iterator[tuple[Batch, Array, Array]]:
         """Residuals, slopes of what is tolerated, and doubt, some thousand samples at a time."""
-        whole = self.thresholds(self.free)
+        whole = self.thresholds(self.free, lasts)
         whole.run(before)
         for part in self._parts(samples):
             yield whole.run(part)

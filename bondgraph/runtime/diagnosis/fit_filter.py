@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Wanted, fit
+from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.tuning import FASTEST
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
@@ -27,6 +28,7 @@ def fit_by_filter(
     noise: Mapping[str, float],
     usual: float,
     progress: Callable[[float], None] = lambda _: None,
+    memories: Sequence[Memory] = (),
 ) -> Fitted:
     """`fit` with a filter of the `usual` bandwidth (rad/s), or with a faster one that tells more.
 
@@ -34,10 +36,11 @@ def fit_by_filter(
     filter lets more noise through, and is off by more where samples are few in a period of the
     motion: it is taken only for errors of half the size or less.
     """
-    best = fit(engine.configured(bandwidth=usual), pieces, free, tolerances, units, noise, progress)
+    own = engine.configured(bandwidth=usual)
+    best = fit(own, pieces, free, tolerances, units, noise, progress, memories)
     while (faster := _FASTER * best.bandwidth) * engine.sample_time <= FASTEST:
         own = engine.configured(bandwidth=faster)
-        found = fit(own, pieces, free, tolerances, units, noise, progress)
+        found = fit(own, pieces, free, tolerances, units, noise, progress, memories)
         if not found.spread < best.spread - math.log(_LESS):
             break
         best = found

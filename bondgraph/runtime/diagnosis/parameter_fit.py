@@ -21,6 +21,7 @@ from scipy.optimize import least_squares
 from scipy.special import chdtri
 
 from bondgraph.runtime.diagnosis.left_over import follows, instruments
+from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.diagnosis.told_combinations import Combination, combinations, untold
 from bondgraph.runtime.diagnosis.whitening import (
@@ -98,6 +99,7 @@ class Left(NamedTuple):
     row of it with the next once that of the noise is taken off: 0 where nothing else is in it.
     `follows` is the share of its mean square that functions of the inputs explain (`left_over`),
     None where that cannot be told. `term` is the root mean square of the largest of its terms.
+    `lost` are the seconds behind gaps, in which nobody knows where what it remembers stood.
     """
 
     residual: str
@@ -109,6 +111,7 @@ class Left(NamedTuple):
     follows: float | None
     spans: tuple[Span, ...]
     term: float
+    lost: float = 0.0
 
     @property
     def nothing(self) -> bool:
@@ -226,15 +229,17 @@ def fit(
     units: Mapping[str, str],
     noise: Mapping[str, float],
     progress: Callable[[float], None] = lambda _: None,
+    memories: Sequence[Memory] = (),
 ) -> Fitted:
     """Fit what is `free` of an engine to pieces of healthy logs, by the names of these.
 
     Tolerances (relative) say where parameters are looked for that no log tells, and bound nothing.
     `noise` are standard deviations of signals that are known, in their unit; of other sensors it is
-    estimated, inputs are exact. Raises ValueError where the logs are too short.
+    estimated, inputs are exact. A residual that keeps something of its first sample (`memories`)
+    counts up to the first gap of a log. Raises ValueError where the logs are too short.
     """
     seen = {**estimated_noise(engine, [p.samples for _, p in pieces]), **noise}
-    runs = ResidualRows(engine, pieces, [seen[k.path] for k in engine.signals])
+    runs = ResidualRows(engine, pieces, [seen[k.path] for k in engine.signals], memories)
     problem = _Problem(runs, free, tolerances)
     at = np.zeros(problem.size)
     problem.weigh(at, first=True)
@@ -689,6 +694,7 @@ class _Problem:
                 Left(
                     name, int(np.isfinite(clean[1, :, k]).sum()), float(before[k]),
                     float(after[k]), float(noise[k]), memory, share[k], spans, float(term[k]),
+                    float(self._runs.lost[k]),
                 )
             )
         return tuple(found)

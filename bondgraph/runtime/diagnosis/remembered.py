@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
+
+import numpy as np
 
 from bondgraph.ir.program import Expression, Program, Ref, Sum, flat
 from bondgraph.notation.walk import references
+from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.tuples import NamedTuple
 
 _Name: TypeAlias = tuple[str, str]  # of a local or a state: its space and its name
@@ -62,6 +66,27 @@ def memories(program: Program) -> tuple[Memory, ...]:
         )
         for own, signals, reads, integral in found
     )
+
+
+def from_the_start(
+    engine: Engine, memories: Sequence[Memory], samples: Array, later: bool
+) -> Array:
+    """For how many samples each residual counts from a start that is known, (residuals,).
+
+    At the first sample of a log the machine is where the model declares it to be. Behind a gap
+    it is somewhere in its motion: so it is throughout samples that are `later` ones of a log, and
+    from where a signal that such a residual reads has no number.
+    """
+    found = np.full(len(engine.residuals), len(samples))
+    paths = [k.path for k in engine.signals]
+    for memory in memories:
+        reads = [paths.index(path) for path in memory.reads]
+        whole: Mask = np.asarray(np.isfinite(samples[:, reads]).all(axis=1))
+        begins = int(np.argmax(whole)) if whole.any() else len(whole)
+        lost = np.flatnonzero(~whole[begins:])
+        until = 0 if later else begins + int(lost[0]) if len(lost) else len(whole)
+        found[[engine.residuals.index(r) for r in memory.residuals]] = until
+    return found
 
 
 class _Work:

@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
+from bondgraph.runtime.diagnosis.remembered import Memory, from_the_start
 from bondgraph.runtime.diagnosis.whitening import LAGS
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.clock import Piece
@@ -28,11 +29,17 @@ _LEAST = 50  # rows below which nothing is told
 class ResidualRows:
     """The filtered residuals of logs at rows some way apart, for any parameters.
 
-    Beside them, what as much noise as the sensors have adds to them: always the same noise.
+    Beside them, what as much noise as the sensors have adds to them: always the same noise. What
+    residuals have `memories` of is known from the start of a log to its first gap; `lost` are the
+    seconds by residual in which it is not.
     """
 
     def __init__(
-        self, engine: Engine, pieces: Sequence[tuple[str, Piece]], noise: Sequence[float]
+        self,
+        engine: Engine,
+        pieces: Sequence[tuple[str, Piece]],
+        noise: Sequence[float],
+        memories: Sequence[Memory] = (),
     ) -> None:
         self.engine = engine
         time = engine.sample_time
@@ -42,6 +49,12 @@ class ResidualRows:
         enough = [(name, piece) for name, piece in pieces if len(piece.samples) > long]
         self.begins = [(name, float(piece.time[0])) for name, piece in enough]
         self.pieces = [piece.samples for _, piece in enough]
+        self._lasts = [
+            from_the_start(engine, memories, piece.samples, bool(piece.anew)) for _, piece in enough
+        ]
+        self.lost = time * np.sum(
+            [len(p) - own for p, own in zip(self.pieces, self._lasts, strict=True)], axis=0
+        )
         rows = sum(len(p) // self.every - self.skip for p in self.pieces)
         if rows < _LEAST:
             need = (_LEAST + self.skip) * self.every * time
@@ -141,14 +154,18 @@ class ResidualRows:
         off: Mapping[int, float],
     ) -> tuple[Array, Array]:
         clean, added = [], []
-        for samples, shaken in zip(self.pieces, self._shaken, strict=True):
-            one = self._through(parameters, _moved(samples, late, off), samples)
+        for samples, shaken, lasts in zip(self.pieces, self._shaken, self._lasts, strict=True):
+            one = self._through(parameters, _moved(samples, late, off), samples, lasts)
             clean.append(one)
-            added.append(self._through(parameters, _moved(shaken, late, off), samples) - one)
+            added.append(self._through(parameters, _moved(shaken, late, off), samples, lasts) - one)
         return np.concatenate(clean, axis=1), np.concatenate(added, axis=1)
 
     def _through(
-        self, parameters: Sequence[Mapping[str, float]], samples: Array, received: Array
+        self,
+        parameters: Sequence[Mapping[str, float]],
+        samples: Array,
+        received: Array,
+        lasts: Array,
     ) -> Array:
         engines = [self.engine.configured(p, bounds=False) for p in parameters]
         readings = list(self.engine.readings)
@@ -163,6 +180,8 @@ class ResidualRows:
             parts.append(value[:, self.every - 1 :: self.every])
         found = np.concatenate([*parts, np.full_like(parts[0][:, :1], np.nan)], axis=1)
         found[:, : self.skip] = np.nan
+        for k, until in enumerate((lasts // self.every).tolist()):
+            found[:, until:, k] = np.nan
         return found
 
 

@@ -439,3 +439,34 @@ def test_a_long_log_loses_one_warm_up_only() -> None:
     long = c.fit({"run": Log(time, columns, {}, {})}).seconds
     short = c.fit({"run": Log(TIME, {n: x[:N] for n, x in columns.items()}, {}, {})}).seconds
     assert abs((20.0 - long) - (8.0 - short)) < 0.06  # s, a row or two
+
+
+@pytest.mark.parametrize("broken", ["nothing", "gap", "no number", "pause"])
+def test_what_adds_up_readings_tells_nothing_behind_a_gap(broken: str) -> None:
+    """q = q0 + the integral of I; nobody knows it behind a gap, where q0 would be wrong by 16 C."""
+    text = """bg 1
+model Cell {
+    param R = 0.5 Ohm +- 20%
+    param a = 0.2 V/C +- 20%
+    0:t { <- Sf:I; -> De:V; -> 1:c }
+    c { -> C:s(q0 = 10 C) { e = a*q + 0.01*q^2 }; -> R:R }
+}"""
+    time = np.arange(6000) / 100.0
+    current = 0.3 + np.sin(0.9 * time) + 0.5 * np.sin(3.1 * time)
+    q = 10.0 + 0.3 * time + (1 - np.cos(0.9 * time)) / 0.9 + 0.5 * (1 - np.cos(3.1 * time)) / 3.1
+    volt = 0.6 * current + 0.17 * q + 0.01 * q**2
+    volt += 0.01 * np.random.default_rng(1).standard_normal(len(time))
+    away = (time > 35.0) & (time < 40.0)
+    columns = {"I": current, "V": volt, "on": 1.0 - away}
+    if broken == "gap":
+        time, columns = time[~away], {name: column[~away] for name, column in columns.items()}
+    elif broken == "no number":
+        columns["V"] = np.where(away, np.nan, volt)
+    c = bondgraph.compile(text=text, rate=100.0)
+    found = c.fit(
+        {"run": Log(time, columns, {}, {})}, operating="on" if broken == "pause" else None
+    )
+    assert all(holds(p, {"R": 0.6, "a": 0.17}[p.name]) for p in found.parameters)
+    (left,) = found.left
+    behind = {"nothing": 0.0, "no number": 25.0}.get(broken, 20.0)
+    assert left.lost == pytest.approx(behind, abs=1.0)  # one time constant is bridged

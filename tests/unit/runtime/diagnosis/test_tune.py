@@ -446,3 +446,29 @@ def test_slopes_are_what_a_change_makes_of_the_residual() -> None:
     found = np.concatenate([bank.run(samples[:1000]), bank.run(samples[1000:])])
     sign = np.sign(found[-1, 3, 0])  # whether the relation is U - R i or its negative
     assert sign * found[-1, :, 0] == pytest.approx([-_I, -_R, -_R * _I, 1.0], rel=1e-6)
+
+
+def test_what_adds_up_readings_has_no_noise_behind_a_gap() -> None:
+    """There the charge is not that of the start any more: what that makes is none of its noise."""
+    text = """bg 1
+model Cell {
+    param R = 0.5 Ohm
+    0:t { <- Sf:I; -> De:V; -> 1:c }
+    c { -> C:s(q0 = 10 C) { e = 0.2*q + 0.01*q^2 }; -> R:R }
+}"""
+    time = np.arange(6000) / 100.0
+    current = 0.3 + np.sin(0.9 * time)
+    q = 10.0 + 0.3 * time + (1 - np.cos(0.9 * time)) / 0.9
+    volt = 0.5 * current + 0.2 * q + 0.01 * q**2
+    volt += _NOISE * np.random.default_rng(1).standard_normal(len(time))
+    made = Compilation(Source("cell.bg", text), None, Options(rate=100.0))
+    engine = made.engine()
+    samples = np.column_stack([{"I": current, "V": volt}[k.path] for k in engine.signals])
+    parts = [samples[:3500], samples[4000:]]
+    alone = tune(engine, made.diagnosis_model, parts[:1], "digest", 2.0, 1.0)
+    both = tune(engine, made.diagnosis_model, parts, "digest", 2.0, 1.0, later=[False, True])
+    wrong = tune(engine, made.diagnosis_model, parts, "digest", 2.0, 1.0)
+    assert both.tuning.limits["r1"].sigma == pytest.approx(alone.tuning.limits["r1"].sigma)
+    assert both.tuning.limits["r1"].sigma < _NOISE  # the filter takes some off
+    assert wrong.tuning.limits["r1"].sigma > 10.0 * _NOISE
+    assert not alone.lost and both.lost == {"r1": pytest.approx(20.0)}
