@@ -47,7 +47,8 @@ class SensorOffsets:
         """One more row of a healthy machine; the last one that is needed tells."""
         if self.known or len(row.samples) <= _ORDER:
             return
-        self._rows.append((roughness(row.samples[:, self._columns]), row.slopes))
+        whole = row.slopes[: self._numbers[-1] + 1]  # starts that were found stand behind them
+        self._rows.append((roughness(row.samples[:, self._columns]), whole))
         if len(self._rows) >= _ROWS:
             rough, slopes = (np.array(x) for x in zip(*self._rows, strict=True))
             history.widen(self._numbers, np.median(rough, axis=0))

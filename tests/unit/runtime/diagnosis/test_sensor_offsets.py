@@ -10,7 +10,10 @@ import numpy as np
 import pytest
 
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.diagnosis.sensor_offsets import roughness
+from bondgraph.runtime.diagnosis.history import History
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.sensor_offsets import SensorOffsets, roughness
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 from tests.unit.passes.relations import compiled
@@ -119,3 +122,19 @@ def _filter() -> Compilation:
         "; f -> R:kf { f = kf*ssqrt(e) }; f -> Df:q; f -> 0:line; line -> De:p2"
         "; line -> Sf:out = use }"
     ).with_options(rate=5.0)
+
+
+def test_a_start_that_is_found_while_offsets_are_learned_changes_nothing_of_them() -> None:
+    """Rows have its slope from then on, behind those of all else: of offsets ten rows tell."""
+    engine = _line().engine()
+    offset = Hypothesis("y", "offset", "V", 1.0, False)
+    place = {k.path: at for at, k in enumerate(engine.signals)}
+    offsets, history = SensorOffsets([offset], 1, place), History(np.array([0.2, 0.0]))
+    samples, one = _log(1, 0.0), np.ones(1)
+    for k in range(10):
+        slopes = np.ones((2 if k < 4 else 3, 1))
+        part = samples[500 * k : 500 * (k + 1)]
+        sound = np.ones(1, dtype=bool)
+        offsets.row(Row(0.0, part, engine, one, sound, one, one, slopes), history)
+    assert offsets.known
+    assert history.prior == pytest.approx([0.2, _NOISE], rel=0.05)
