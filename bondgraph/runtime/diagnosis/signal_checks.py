@@ -220,6 +220,17 @@ class SignalChecks:
         """Times the roughness of any healthy row, above which it is unusual."""
         return np.where(self._rows >= _MANY, _OUT, 1.5 * _OUT)
 
+    def _driving(self, rough: Array, span: Array) -> Array:
+        """How many times rougher than in any healthy row sensors may be by what drives them.
+
+        By as much as the input that is it most: a machine passes that on, one with a parameter that
+        has changed as any other. Of inputs nothing is expected so.
+        """
+        times = rough / np.maximum(self._rough[0], 1e-300)
+        driving = self._drive & (rough > _FLOOR * span)
+        most = float(np.max(times, where=driving, initial=1.0))
+        return np.where(self._drive, 1.0, most)
+
     def _unusual(
         self, far: Array, rough: Array, moved: Array, runs: Array, span: Array, least: Array
     ) -> dict[str, tuple[Mask, Array, Array]]:
@@ -228,7 +239,8 @@ class SignalChecks:
             floor = _FLOOR * np.maximum(span, 1e-300)
             spike = far[0] > np.maximum(_OUT * self._far[0], floor)
             spike &= far[0] > _ALONE * far[2]
-            burst = rough > np.maximum(self._louder() * self._rough[0], least * span)
+            louder = self._louder() * self._driving(rough, span) * self._rough[0]
+            burst = rough > np.maximum(louder, least * span)
             beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
             burst &= beside > np.minimum(_ROUGHER * self._rough[1], _WHITE)
             longest = np.maximum(_STILL * self._still, _LEAST)

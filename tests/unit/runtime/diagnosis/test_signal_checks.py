@@ -245,6 +245,28 @@ def test_what_an_input_does_as_never_before_is_no_fault_of_a_sensor() -> None:
     assert seen == {(): {"u", "y"}, ("u",): set()}
 
 
+@pytest.mark.parametrize(("resistance", "noise", "told"), [(1.6, 0.0, False), (1.0, 0.8, True)])
+def test_a_resistance_that_has_grown_is_no_noise_of_the_sensor_that_shows_it(
+    resistance: float, noise: float, told: bool
+) -> None:
+    """A current 1.8 times as restless as ever makes a voltage that is 2.9 times so at 1.6 Ohm.
+
+    Rows are restless in the same way, so that these ratios are exact.
+    """
+    draw = np.random.default_rng(12)
+    at = np.arange(8000)
+    restless = np.where((at >= 6000) & (noise == 0.0), 1.8, 1.0)
+    current = 8.0 * np.sin(at / 300.0) + restless * np.tile(draw.normal(size=_ROW), 320)
+    volt = np.where(at >= 6000, resistance, 1.0) * current + 0.01 * draw.normal(size=8000)
+    volt[6000:] += 3.0 * noise * np.tile(draw.normal(size=_ROW), 80)
+    checks = SignalChecks(["I", "V"], [0, 1], _STEP, ("I",))
+    samples, said = np.column_stack([current, volt]), []
+    for k in range(0, 8000, _ROW):
+        said += checks.row(k * _STEP, samples[k : k + _ROW], k < 6000)
+    assert [(one.signal, one.kind) for one in said] == ([("V", "burst")] if told else [])
+
+
+
 @pytest.mark.parametrize("kind", ["command", "mode"])
 def test_a_current_into_a_capacitor_that_is_switched_on_is_no_spike(kind: str) -> None:
     # i = U/R exp(-t/(R C)), gone within a sample: R C is half of one
