@@ -42,6 +42,7 @@ _BIASED = 2.0  # the same, where it is no noise and may become more
 _HOPELESS = 1.2  # times what noise may do: an approximation that is that far off tells nothing
 _MANY = 4 * FIRST  # rows after which switches that are turned all the time are known
 _OFF = 4.0  # deviations of a mean that is surely not zero
+_WALKED = 3.0  # times the way of a walk of as many rows: five deviations of its middle
 _TESTS = 4  # of each residual: samples, sums of rows and of averages, how loud rows are
 _ALARMS = 0.4  # false ones wanted per hour: one is promised, and noise is not quite normal
 
@@ -106,6 +107,11 @@ class Learning:
         remembers = {r for m in model.memories for r in m.residuals}
         self._rests = [not stays and r not in remembers
                        for r, stays in zip(engine.residuals, self._stays, strict=True)]  # fmt: skip
+        counted = {k.path for k in engine.signals if k.counts is not None}
+        sums = {r for m in model.memories if m.integral and not counted & set(m.signals)
+                for r in m.residuals}  # fmt: skip
+        #: Of which the start is declared: where that is wrong, they stand elsewhere for ever.
+        self.declared = np.array([r in sums for r in engine.residuals]) & ~self._approximate
         self.hopeless = np.zeros(len(used), dtype=bool)  # approximations that are too far off
         self.off = np.zeros(len(used), dtype=bool)  # residuals that are surely not zero in the mean
         self._used, self._wanted = used.copy(), used.copy()
@@ -342,6 +348,7 @@ class Learning:
         self._due[k] = _MOST + 1 if self._approximate[k] else often
         left = np.where(np.isfinite(values), beyond[:, k], math.nan)
         self.off[k] = self._rests[k] and _off(left, float(owed[k]))
+        self.off[k] |= bool(self.declared[k]) and _elsewhere(left)
         self.limits[k, 0] = max(self._sigma[k].values())
         stood = float(self.limits[k, 4]) + self._further(k)
         self.limits[k, 4:6] = found.mean, found.memory
@@ -442,6 +449,15 @@ def _off(values: Array, owed: float) -> bool:
     found = noise(values, owed)
     deviation = found.sigma * math.sqrt(found.memory / max(found.rows, 1))
     return abs(found.mean) > max(_OFF * deviation, found.sigma)
+
+
+def _elsewhere(values: Array) -> bool:
+    """Whether rows of what adds up readings are surely further from zero than these can have gone.
+
+    Noise that adds up goes as far as the root of their number, times how far it goes in a row.
+    """
+    known = values[np.isfinite(values)]
+    return bool(abs(np.median(known)) > _WALKED * stepped(values) * math.sqrt(len(known)))
 
 
 def _settings(modes: Array) -> _Settings:

@@ -322,6 +322,11 @@ def fittable(
                 raise ValueError(
                     f"{name} counts from where it stood at the start: it has no offset to be fitted"
                 )
+        elif name not in names and name in engine.parameters and name not in faults:
+            raise ValueError(
+                f"{name} is used by no law, but for where something begins or for other numbers:"
+                " that cannot be fitted, say what it is in these logs (--set)"
+            )
         elif name not in names:
             close = get_close_matches(name, [*names, *signals], 3, 0.5)
             there = f"there is {', '.join(names)}" if names else "there is none"

@@ -122,6 +122,8 @@ class WatchStatus:
                 verb = "does" if off.sum() == 1 else "do"
                 message += f"; {self.names(off)} {verb} not stand at zero: parameters are others"
                 message += " (bondgraph fit), or a fault was there from the start"
+                if (off & found.declared).any():
+                    message += ", or what is added up began elsewhere than the model declares"
             out.append(Verdict("warm-up", time, message=message))
         hopeless = found.hopeless
         lost = hopeless & ~self._hopeless

@@ -9,6 +9,7 @@ from itertools import count
 import numpy as np
 import pytest
 
+import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.history import HEALTHY
@@ -248,3 +249,24 @@ def test_a_drift_from_the_beginning_is_seen() -> None:
 
 def test_white_noise_is_followed_nowhere() -> None:
     assert min(seen_after(0.0, 100, seed) for seed in range(4)) == 2400
+
+
+@pytest.mark.parametrize(("begins", "told"), [(10.0, False), (9.0, True), (7.0, True)])
+def test_what_is_added_up_from_a_start_that_is_not_there_does_not_stand_at_zero(
+    begins: float, told: bool
+) -> None:
+    """A cell that holds less than is declared: e = 0.2 q + 0.01 q^2 is off by 0.4 V for each C."""
+    cell = bondgraph.compile(text="""bg 1
+model Cell {
+    param R = 0.5 Ohm +- 5%
+    0:t { <- Sf:I; -> De:V; -> 1:c }
+    c { -> C:s(q0 = 10 C) { e = 0.2*q + 0.01*q^2 }; -> R:R }
+}""", rate=100.0)
+    time = np.arange(4000) / 100.0
+    current, q = np.sin(0.9 * time), begins + (1.0 - np.cos(0.9 * time)) / 0.9
+    volt = 0.5 * current + 0.2 * q + 0.01 * q**2
+    volt += 0.01 * np.random.default_rng(1).normal(size=len(time))
+    found = bondgraph.monitor(cell, {"t": time, "I": current, "V": volt})
+    said = " ".join(v.message for v in found.verdicts[0])
+    assert "r1 is watched from now on" in said
+    assert ("began elsewhere than the model declares" in said) == told

@@ -286,6 +286,16 @@ def test_what_cannot_be_fitted_is_told_with_a_remedy() -> None:
     bare = bondgraph.compile(text=text)
     with pytest.raises(ValueError, match="no residual sees a parameter"):
         bare.fit({"a": short})
+    cell = """bg 1
+model M {
+    param R = 2 Ohm
+    param begin = 3 C
+    param a = 0.1 V/C^2
+    0:t { <- Sf:I; -> De:V; -> 1:c }
+    c { -> R:R; -> C:s(q0 = begin) { e = a*q^2 } }
+}"""
+    with pytest.raises(ValueError, match="begin is used by no law, but for where something begins"):
+        bondgraph.compile(text=cell, rate=RATE).fit({"a": short}, ["begin"])
 
 
 def test_a_whitening_filter_and_its_sum_are_those_of_theory() -> None:
