@@ -69,11 +69,11 @@ def run(args: Namespace, tuning: Tuning | None, fault: int) -> int:
     except ValueError as error:
         raise Trouble(str(error)) from error
     items = [with_states(item, folder) for item in every if item.path != output]
-    if folder:
-        _make(folder)
     if not items:
         raise Trouble(f"no log to watch in {listed(args.logs)}")
     settings = _settings(args, tuning)
+    if folder:
+        _make(folder)
     kept = KeptResults(args.output) if args.output else None
     try:
         found = _found(args, settings, items, digest(settings, __version__), kept)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from glob import glob, has_magic
+from pathlib import Path
 from typing import TypeVar
 
 from bondgraph.runtime.fleet.watcher import LogFile, LogTable
@@ -70,8 +71,7 @@ def _is_inside(path: str, folder: str) -> bool:
     """Whether a path, or the folder of a pattern before its first wildcard, is in a folder."""
     while _pattern(path):
         path = os.path.dirname(path) or os.curdir
-    inner, outer = os.path.realpath(path), os.path.realpath(folder)
-    return os.path.commonpath([inner, outer]) == outer
+    return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
 
 
 def _pattern(name: str) -> bool:
