@@ -196,7 +196,7 @@ class _Work:
                 history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
                 every.append(row)
                 peaks.append(peak)
-        found = history.fit()
+        found = history.fit_within()
         # a residual with fewer stages than others is watched while these warm up
         early = list(self._chunks(samples[:start], samples[:0]))
         excess = [_beyond(chunk[0]) for chunk in early]
