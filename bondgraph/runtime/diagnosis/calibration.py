@@ -178,7 +178,7 @@ class _Work:
         return np.asarray(np.abs(moved).max(axis=(0, 1), initial=0.0))
 
     def noise(self, samples: Array) -> _Noise | None:
-        """What is left of the residuals once parameters are taken as they fit best.
+        """What is left once parameters are taken as they fit best inside their tolerances.
 
         None for a log that is not longer than the warm-up.
         """
