@@ -43,38 +43,37 @@ def wrong(args: Namespace) -> str:
         return "no logs: name files, folders or patterns"
     if args.scheduler and args.jobs is not None:
         return "the workers of --scheduler are as many as they are: leave out --jobs"
-    return _wrong_states(args.states, args.logs) if args.states else ""
+    return _no_folder(args.states) if args.states else ""
 
 
-def _wrong_states(folder: str, logs: Sequence[str]) -> str:
-    """What is wrong with a folder for states, "" if nothing: none is written over a log."""
-    from bondgraph.runtime.fleet.log_paths import is_inside
-
+def _no_folder(folder: str) -> str:
+    """What is wrong with a folder for states, "" if nothing."""
     if folder.lower().endswith((".csv", ".parquet")):
         return f"--states of many logs is a folder, with a file for each: not {folder}"
     if os.path.exists(folder) and not os.path.isdir(folder):
         return f"--states of many logs is a folder, and {folder} is a file"
-    holds = next((name for name in logs if is_inside(name, folder)), None)
-    if holds is not None:
-        return f"--states {folder} is where logs are ({holds}): name another folder"
     return ""
 
 
 def run(args: Namespace, tuning: Tuning | None, fault: int) -> int:
     """Watch all logs; the exit status, `fault` if it is asked for and there is one."""
     from bondgraph.runtime.fleet.kept_results import KeptResults
-    from bondgraph.runtime.fleet.log_paths import is_inside, log_files, with_states
+    from bondgraph.runtime.fleet.log_paths import log_files, with_states
     from bondgraph.runtime.fleet.watched_log import BAD
     from bondgraph.runtime.fleet.watcher import digest
 
     output = os.path.abspath(args.output) if args.output else None  # may be in a folder of logs
-    items = [item for item in log_files(args.logs, note) if item.path != output]
-    if args.states:  # so may these
-        items = [with_states(i, args.states) for i in items if not is_inside(i.path, args.states)]
-        _make(args.states)
+    folder = args.states or ""
+    try:
+        every = log_files(args.logs, note, folder)
+    except ValueError as error:
+        raise Trouble(str(error)) from error
+    items = [with_states(item, folder) for item in every if item.path != output]
     if not items:
         raise Trouble(f"no log to watch in {listed(args.logs)}")
     settings = _settings(args, tuning)
+    if folder:
+        _make(folder)
     kept = KeptResults(args.output) if args.output else None
     try:
         found = _found(args, settings, items, digest(settings, __version__), kept)

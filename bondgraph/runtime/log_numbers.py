@@ -414,7 +414,7 @@ def doubles(column: pyarrow.ChunkedArray) -> Array:
     [1.0, nan, 2.0]
     """
     parts = [np.empty(0)]
-    for chunk in column.chunks:
+    for chunk in filter(len, column.chunks):
         known, numbers = chunk.buffers()
         own = slice(chunk.offset, chunk.offset + len(chunk))
         if numbers is None:

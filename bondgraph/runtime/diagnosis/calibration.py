@@ -203,7 +203,7 @@ class _Work:
         return np.asarray(np.abs(moved).max(axis=(0, 1), initial=0.0))
 
     def noise(self, samples: Array, lasts: Array | None = None) -> _Noise | None:
-        """What is left of the residuals once parameters are taken as they fit best.
+        """What is left once parameters are taken as they fit best inside their tolerances.
 
         For as many samples as each residual `lasts`. None for a log that is not longer than the
         warm-up.
@@ -222,7 +222,7 @@ class _Work:
                 history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
                 every.append(row)
                 peaks.append(peak)
-        found = history.fit()
+        found = history.fit_within()
         # a residual with fewer stages than others is watched while these warm up
         early = list(self._chunks(samples[:start], samples[:0], lasts))
         excess = [_beyond(chunk[0]) for chunk in early]

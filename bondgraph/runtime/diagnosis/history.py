@@ -94,6 +94,11 @@ class History:
         known = self.known()
         return np.asarray(self.prior * np.linalg.solve(known[:, :-1], known[:, -1]))
 
+    def fit_within(self) -> Array:
+        """The same without one that is further off than its tolerance."""
+        known = self.known()
+        return np.asarray(self.prior * within_tolerance(known[:, :-1], known[:, -1]))
+
     def expected(self, slopes: Array) -> tuple[Array, Array]:
         """The residuals of the healthy machine as far as it is known, and their variances."""
         known = self.known()
@@ -121,6 +126,29 @@ class History:
             bound=np.where(sure, bound, row.bound),
             average=own,
         )
+
+
+def within_tolerance(root: Array, wanted: Array) -> Array:
+    """The parameters, in deviations, that fit best without one being out of its tolerance.
+
+    The least |root z - wanted|; a parameter that would be further off is held at its tolerance, and
+    the others are fitted again.
+
+    >>> root, wanted = np.array([[1.0, 0.5], [0.0, 1.0]]), np.array([4.0, 1.0])
+    >>> within_tolerance(root, wanted).round(2).tolist()
+    [1.73, 1.71]
+    """
+    most, found = math.sqrt(3.0), np.zeros(len(wanted))
+    free = np.ones(len(wanted), dtype=np.bool_)
+    while free.any():
+        left = wanted - root[:, ~free] @ found[~free]
+        found[free] = np.linalg.lstsq(root[:, free], left)[0]
+        over = np.abs(found) > most
+        found[over] = np.copysign(most, found[over])
+        if not (over & free).any():
+            break
+        free &= ~over
+    return found
 
 
 def triangle(rows: Array) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.driving import Driving
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
+from bondgraph.runtime.diagnosis.history import within_tolerance
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.noise import (
     CAREFUL,
@@ -297,7 +298,7 @@ class Learning:
             owed = np.square(basis[:-count]).sum(axis=1).reshape(value.shape).sum(axis=0)
             rest = value - slopes @ found
             weight = weight * within(rest)
-        beyond = value - slopes @ _within_tolerance(root, basis[:-count].T @ wanted)
+        beyond = value - slopes @ within_tolerance(root, basis[:-count].T @ wanted)
         least, average = uncovered(rest, bound), uncovered(average - tilts @ found, bound)
         return least, average, owed, uncovered(beyond, bound)
 
@@ -419,29 +420,6 @@ class _Healthy(NamedTuple):
     average: Array
     tilt: Array
     settings: list[_Settings]
-
-
-def _within_tolerance(root: Array, wanted: Array) -> Array:
-    """The parameters, in deviations, that fit best without one being out of its tolerance.
-
-    The least |root z - wanted|; a parameter that would be further off is held at its tolerance, and
-    the others are fitted again.
-
-    >>> root, wanted = np.array([[1.0, 0.5], [0.0, 1.0]]), np.array([4.0, 1.0])
-    >>> _within_tolerance(root, wanted).round(2).tolist()
-    [1.73, 1.71]
-    """
-    most, found = math.sqrt(3.0), np.zeros(len(wanted))
-    free = np.ones(len(wanted), dtype=np.bool_)
-    while free.any():
-        left = wanted - root[:, ~free] @ found[~free]
-        found[free] = np.linalg.lstsq(root[:, free], left)[0]
-        over = np.abs(found) > most
-        found[over] = np.copysign(most, found[over])
-        if not (over & free).any():
-            break
-        free &= ~over
-    return found
 
 
 def _off(values: Array, owed: float) -> bool:

@@ -85,7 +85,8 @@ def from_the_start(
         begins = int(np.argmax(whole)) if whole.any() else len(whole)
         lost = np.flatnonzero(~whole[begins:])
         until = 0 if later else begins + int(lost[0]) if len(lost) else len(whole)
-        found[[engine.residuals.index(r) for r in memory.residuals]] = until
+        own = [engine.residuals.index(r) for r in memory.residuals]
+        found[own] = np.minimum(found[own], until)
     return found
 
 

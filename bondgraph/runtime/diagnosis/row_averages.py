@@ -88,6 +88,7 @@ def _weights(rest: Array) -> Array:
         len(rest) > LAGS) else np.empty((LAGS + 1, 0))  # fmt: skip
     lags = lags[:, np.isfinite(lags).all(axis=0)]
     count = lags.shape[1]
+    lags = lags / max(np.abs(lags).max(initial=0.0), 1e-300)  # no square of it is infinite
     products = lags @ lags.T
     if not products[0, 0] > 0.0:
         return best

@@ -9,7 +9,7 @@ from typing import Any
 
 from bondgraph.runtime.diagnosis.tuning import Tuning
 from bondgraph.runtime.fleet.column_log import log_of
-from bondgraph.runtime.fleet.log_paths import log_files
+from bondgraph.runtime.fleet.log_paths import log_files, with_states
 from bondgraph.runtime.fleet.verdict_table import columns_of, summary
 from bondgraph.runtime.fleet.watched_log import BAD, WatchedLog
 from bondgraph.runtime.fleet.watcher import Item, LogTable
@@ -69,6 +69,7 @@ def monitor(
     operating: str | None = None,
     accept: float | None = None,
     jobs: int = 1,
+    states: str | os.PathLike[str] | None = None,
     progress: Callable[[float], None] = lambda _: None,
     tell: Callable[[str], object] = lambda _: None,
 ) -> Fleet:
@@ -78,10 +79,11 @@ def monitor(
     pattern, a list of any of these, or a dict of them by name. `columns` is a map file or what it
     says; `time`, `unit`, `rate`, `operating` and `accept` are as in `bondgraph monitor`: `--time`,
     `--time-unit`, `--rate`, `--while`, `--accept`. With `jobs` above 1 so many processes watch, or
-    the workers of Dask if `distributed` has a default client. `progress` is told the share that is
-    done, 0 to 1, `tell` what a watch notes besides. A log that cannot be watched has an `error`;
-    raises Trouble if that is so for all, CompileError if the model is wrong, ValueError without any
-    log.
+    the workers of Dask if `distributed` has a default client. `states` is a folder that gets a
+    table of each log, with a row for each sample. `progress` is told the share that is done, 0 to
+    1, `tell` what a watch notes besides. A log that cannot be watched has an `error`; raises
+    Trouble if that is so for all, CompileError if the model is wrong, ValueError without any log or
+    if `states` is where logs are, OSError if it cannot be made.
 
     >>> import bondgraph, numpy
     >>> c = bondgraph.compile("models/dc_motor.bg")
@@ -104,9 +106,12 @@ def monitor(
         form = form._replace(wanted=frozenset(own.column for own in mapping.values()))
     settings = WatchSettings(compilation, tuning, form, mapping, operating, accept)
     assert compilation.program  # a wrong model is told before any log is looked at
-    items, bad = _items(logs, form, tell)
+    folder = os.fspath(states) if states is not None else ""
+    items, bad = _items(logs, form, tell, folder)
     if not items and not bad:
         raise ValueError("no log to watch")
+    if folder:
+        os.makedirs(folder, exist_ok=True)
     found: dict[int, WatchedLog] = dict(bad)
     places = [k for k in range(len(items) + len(bad)) if k not in bad]
     for k, one in watched(settings, items, jobs, default_client()):
@@ -121,20 +126,21 @@ def monitor(
 
 
 def _items(
-    logs: Any, form: Form, tell: Callable[[str], object]
+    logs: Any, form: Form, tell: Callable[[str], object], states: str
 ) -> tuple[list[Item], dict[int, WatchedLog]]:
     """What is to be watched, and by its place what cannot be: tables that are no logs."""
     items: list[Item] = []
     bad: dict[int, WatchedLog] = {}
     for name, one in _named(logs):
         if isinstance(one, str | os.PathLike):
-            files = log_files([os.fspath(one)], tell)
-            items += [f._replace(name=name) if name and len(files) == 1 else f for f in files]
+            files = log_files([os.fspath(one)], tell, states)
+            own = [f._replace(name=name) if name and len(files) == 1 else f for f in files]
+            items += [with_states(f, states) for f in own]
             continue
         called = name or f"log {len(items) + len(bad) + 1}"
         try:
             log = one if isinstance(one, Log) else log_of(one, form._replace(name=called))
-            items.append(LogTable(called, log))
+            items.append(with_states(LogTable(called, log), states))
         except LogError as error:
             text = error.message + (f"; {error.help}" if error.help else "")
             bad[len(items) + len(bad)] = WatchedLog(called, error=text)

@@ -89,20 +89,16 @@ class LogFile(NamedTuple):
 
 
 class LogTable(NamedTuple):
-    """A log in memory."""
+    """A log in memory; `states` as of a `LogFile`."""
 
     name: str
     log: Log
+    states: str = ""
 
     @property
     def path(self) -> str:
         """See `Item`."""
         return self.name
-
-    @property
-    def states(self) -> str:
-        """See `Item`."""
-        return ""
 
     def source(self, form: Form) -> Source:
         """See `Item`."""

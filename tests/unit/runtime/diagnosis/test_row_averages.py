@@ -187,6 +187,13 @@ def test_weights_are_those_of_least_squares_that_allow_none_below_zero(seed: int
     assert left == pytest.approx(distance**2)
 
 
+@pytest.mark.parametrize("size", [1e-290, 1e290])
+def test_weights_are_the_same_at_any_size(size: float) -> None:
+    values = np.diff(np.random.default_rng(5).standard_normal(200))
+    assert _weights(size * values) == pytest.approx(_weights(values))
+    assert _weights(values).sum() > 0.5
+
+
 def test_columns_that_are_one_another_share_their_weight() -> None:
     products = np.array([[1.0, -0.5, -0.5], [-0.5, 1.0, 1.0], [-0.5, 1.0, 1.0]])
     weights, left = _positive(products)

@@ -324,6 +324,30 @@ def test_where_a_level_wanders_noise_is_beside_that_in_a_tuning_too() -> None:
             assert [6.0 < at < 6.2 for at in alarms] == [True] * bool(fault)
 
 
+def test_no_tolerance_explains_noise_by_more_than_it_allows() -> None:
+    """What a capacity holds is noise alone here, as its voltage rests: a capacity of zero has none.
+
+    Within 20 % of 10 F the residual of 8 F is the quietest, whose noise is 0.8 times that of 10 F.
+    """
+    draw = np.random.default_rng(4)
+    samples = {"i": np.zeros(20_000), "u": 5.0 + 1e-3 * draw.standard_normal(20_000)}
+
+    def sigma(capacity: str) -> float:
+        text = (
+            f"bg 1\nmodel M {{ param C = {capacity}\n"
+            "0:n { <- Sf:i; -> C:c = C; -> De:u } }\n"
+        )
+        c = Compilation(Source("m.bg", text), None, Options(rate=1000.0))
+        engine = c.engine()
+        log = np.column_stack([samples[k.path] for k in engine.signals])
+        found = tune(engine, c.diagnosis_model, [log], "digest", 1.0, 2.0).tuning
+        return found.limits["r1"].sigma
+
+    plain = sigma("10 F")
+    assert sigma("8 F") == pytest.approx(0.8 * plain, rel=1e-6)
+    assert 0.8 * plain <= sigma("10 F +- 20%") * 1.01 and sigma("10 F +- 20%") <= plain
+
+
 @pytest.mark.parametrize("tunes", [True, False])
 def test_what_adds_up_readings_walks_away(tunes: bool) -> None:
     """F - K (q + c q^3) with q = int(v), of a spring that moves little: it walks by K times noise.

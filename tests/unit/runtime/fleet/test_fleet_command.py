@@ -226,6 +226,20 @@ def test_each_log_has_the_states_of_a_watch_of_its_own(
     assert Path("logs/states/logs", NAMES[0]).exists()
 
 
+@pytest.mark.parametrize(
+    ("folder", "names"),
+    [("logs", ["logs"]), (".", ["logs/*.csv"]), ("logs/more", ["logs/more/c_healthy.parquet"])],
+)
+def test_states_are_not_written_among_logs(
+    folder: str, names: list[str], logs: Path, monitored: Monitored
+) -> None:
+    before = {p: p.read_bytes() for p in logs.rglob("*.*")}
+    done = monitored(*names, "--jobs", 1, "--states", folder)
+    assert done.status == 1 and done.out == ""
+    assert f"{folder} is where logs are ({names[0]}): name another folder" in done.err
+    assert {p: p.read_bytes() for p in logs.rglob("*.*")} == before
+
+
 def test_states_that_cannot_be_written_are_told_and_end_nothing(
     logs: Path, monitored: Monitored
 ) -> None:
@@ -321,7 +335,7 @@ def test_a_damaged_record_of_what_is_done_counts_as_none(logs: Path, monitored: 
 @pytest.mark.parametrize(
     "words",
     [["--follow"], ["--serial", "/dev/x"], ["--mqtt", "h/t"], ["--journal", "j"],
-     ["--publish", "h/t"], ["--states", "s.csv"], ["--states", "logs"], ["--states", "."],
+     ["--publish", "h/t"], ["--states", "s.csv"],
      ["--states", "logs/a_healthy.csv"], ["-"], ["--jobs", "2", "--scheduler", "tcp://x"]],
 )  # fmt: skip
 def test_what_is_for_one_machine_is_refused(

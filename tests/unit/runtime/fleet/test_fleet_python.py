@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pyarrow
+import pyarrow.csv
 import pytest
 
 import bondgraph
@@ -58,6 +59,20 @@ def test_paths_frames_and_logs_together(model: Compilation, motors: Path) -> Non
 def test_names_are_those_that_are_given(model: Compilation, motors: Path) -> None:
     logs = {"mill 3": motors / "a_healthy.csv", "mill 4": columns(motor.log(5.0, 1.0))}
     assert bondgraph.monitor(model, logs).table()["log"] == ["mill 3", "mill 4"]
+
+
+def test_states_of_tables_and_of_files(
+    model: Compilation, motors: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(motors)
+    logs = {"mill 3": "a_healthy.csv", "mill 4": columns(motor.log())}
+    found = bondgraph.monitor(model, logs, states=tmp_path / "states")
+    tables = [pyarrow.csv.read_csv(tmp_path / "states" / f"{n}.csv").to_pydict() for n in logs]
+    active = [[t for t, a in zip(x["time"], x["active"], strict=True) if a] for x in tables]
+    (alarm,) = [v.time for v in found.verdicts[1] if v.event == "fault"]
+    assert active[0] == [] and active[1][0] == pytest.approx(alarm, abs=2e-3)
+    with pytest.raises(ValueError, match="is where logs are"):
+        bondgraph.monitor(model, "a_healthy.csv", states=motors)
 
 
 def test_dates_and_words_in_columns(model: Compilation) -> None:
