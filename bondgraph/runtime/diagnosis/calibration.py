@@ -29,7 +29,7 @@ from bondgraph.runtime.diagnosis.noise import (
     uncovered,
     within,
 )
-from bondgraph.runtime.diagnosis.remembered import from_the_start
+from bondgraph.runtime.diagnosis.remembered import from_the_start, up_to_gaps
 from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
 from bondgraph.runtime.diagnosis.shown_sizes import Shown, ShownSizes
@@ -90,6 +90,7 @@ def tune(
     if seconds <= 0:
         raise ValueError(
             f"no log is longer than the warm-up of {engine.warm_up:g} s: nothing can be learned"
+            + up_to_gaps(engine.residuals, work.lost)
         )
     found = _limits(engine, learned, false_alarms, centred(model, engine.residuals), work)
     bounds = dict(zip(engine.residuals, np.max([n.bound for n in learned], axis=0).tolist(),

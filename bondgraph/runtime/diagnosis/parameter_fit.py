@@ -21,7 +21,7 @@ from scipy.optimize import least_squares
 from scipy.special import chdtri
 
 from bondgraph.runtime.diagnosis.left_over import follows, instruments
-from bondgraph.runtime.diagnosis.remembered import Memory
+from bondgraph.runtime.diagnosis.remembered import Memory, up_to_gaps
 from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.diagnosis.told_combinations import Combination, combinations, untold
 from bondgraph.runtime.diagnosis.whitening import (
@@ -459,7 +459,10 @@ class _Problem:
         self._mask: Mask = np.isfinite(filtered(clean[0] + added[0], self._noise_filters))
         self._all = self._mask
         if not self._mask.any():
-            raise ValueError("no residual is valid in the logs: nothing can be fitted")
+            raise ValueError(
+                "no residual is valid in the logs: nothing can be fitted"
+                + up_to_gaps(self._runs.engine.residuals, self._runs.lost)
+            )
         nearly = rms(clean[-1]) < _NEARLY * np.maximum(rms(clean[0]), rough)
         self._homogeneous = nearly | self._vanishing()
 

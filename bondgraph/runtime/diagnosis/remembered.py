@@ -11,6 +11,7 @@ from bondgraph.ir.program import Expression, Program, Ref, Sum, flat
 from bondgraph.notation.walk import references
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
 _Name: TypeAlias = tuple[str, str]  # of a local or a state: its space and its name
@@ -88,6 +89,18 @@ def from_the_start(
         own = [engine.residuals.index(r) for r in memory.residuals]
         found[own] = np.minimum(found[own], until)
     return found
+
+
+def up_to_gaps(residuals: Sequence[str], lost: Array) -> str:
+    """What there is to say besides where logs are too short, and seconds of them are `lost` so."""
+    names = [name for name, own in zip(residuals, lost.tolist(), strict=True) if own]
+    if not names:
+        return ""
+    count = "counts" if len(names) == 1 else "count"
+    return (
+        f"; {listed(names, 'and')} {count} up to the first gap of each log only, where what they"
+        " keep of its start is known"
+    )
 
 
 class _Work:

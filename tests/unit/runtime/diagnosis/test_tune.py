@@ -496,3 +496,5 @@ model Cell {
     assert both.tuning.limits["r1"].sigma < _NOISE  # the filter takes some off
     assert wrong.tuning.limits["r1"].sigma > 10.0 * _NOISE
     assert not alone.lost and both.lost == {"r1": pytest.approx(20.0)}
+    with pytest.raises(ValueError, match="r1 counts up to the first gap of each log only"):
+        tune(engine, made.diagnosis_model, parts[1:], "digest", 2.0, 1.0, later=[True])
