@@ -40,7 +40,7 @@ def arguments(parser: ArgumentParser) -> None:
     add = parser.add_argument
     add("model", metavar="MODEL", help="file.bg or file.bg:Name")
     add("logs", metavar="LOG", nargs="+",
-        help="logs of one healthy machine, .csv, .parquet or lines of JSON")  # fmt: skip
+        help="logs of one healthy machine: files, folders, patterns")  # fmt: skip
     add("--free", metavar="NAMES", action="append", default=[],
         help="parameters to fit, and sensors or inputs whose offset is, separated by commas; may be"
         " repeated (default: the parameters with a tolerance, or else all)")  # fmt: skip

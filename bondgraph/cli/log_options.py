@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
+from bondgraph.text.diagnostic import Trouble
+
 if TYPE_CHECKING:
     from argparse import Namespace
     from collections.abc import Callable, Mapping
@@ -68,10 +70,15 @@ def note(text: str) -> None:
 
 
 def read_logs(args: Namespace) -> list[tuple[str, Log]]:
-    """The logs that the arguments name, each with its name."""
+    """The logs of the files, folders and patterns that the arguments name, each with its name."""
+    from bondgraph.runtime.fleet.log_paths import log_files
     from bondgraph.runtime.log_file import read_form
+    from bondgraph.text.numerals import listed
 
-    return [(path, read_form(path, form_of(args, path))) for path in args.logs]
+    names = [file.name for file in log_files(args.logs, note)]
+    if not names:
+        raise Trouble(f"no log to read in {listed(args.logs, 'and')}")
+    return [(name, read_form(name, form_of(args, name))) for name in names]
 
 
 def times_of(logs: list[tuple[str, Log]]) -> dict[str, str]:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.diagnosis.shown_sizes import Shown
     from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.log import Array
+    from bondgraph.runtime.monitoring.clock import Piece
     from bondgraph.runtime.monitoring.engine import Engine
 
 _FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
@@ -46,7 +47,7 @@ def arguments(parser: ArgumentParser) -> None:
     """The arguments of `tune`."""
     parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
     parser.add_argument("logs", metavar="LOG", nargs="*",
-                        help="logs of healthy machines, .csv or .parquet")  # fmt: skip
+                        help="logs of healthy machines: files, folders, patterns")  # fmt: skip
     parser.add_argument("--simulate", metavar="SCENARIO",
                         help="use virtual machines instead, with parameters drawn inside their"
                         " tolerances")  # fmt: skip
@@ -79,7 +80,8 @@ def run(args: Namespace) -> int:
     if bool(args.logs) == bool(args.simulate):
         raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
-        compilation, engine, logs, later, times = _logs(args)
+        compilation, engine, pieces, times = _logs(args)
+        logs, later = [p.samples for _, p in pieces], [bool(p.anew) for _, p in pieces]
         usual = _usual(1.0 / engine.sample_time, max(map(len, logs), default=0), args.window)
         wanted = args.bandwidth or _wanted(engine, usual, logs, _FACTORS)
         window = args.window or WINDOW / usual
@@ -104,6 +106,7 @@ def run(args: Namespace) -> int:
                     wanted += [w for w in faster if w > wanted[-1]]
     except ValueError as error:
         raise Trouble(str(error)) from error
+    alone = bool(args.logs) and len({name for name, _ in pieces}) == 1
     best = _best(found, usual)
     write_whole(args.output, best.tuning.to_json())
     return console.told(
@@ -111,7 +114,7 @@ def run(args: Namespace) -> int:
         compilation.report.diagnostics,
         _message(compilation, best),
         lambda: {"files": [args.output], **_result(compilation, best, found), "times": times},
-        lambda: _lines(compilation, best, found, args.output, alone=len(args.logs) == 1),
+        lambda: _lines(compilation, best, found, args.output, alone=alone),
     )
 
 
@@ -148,9 +151,8 @@ def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[fl
 
 def _logs(
     args: Namespace,
-) -> tuple[Compilation, Engine, list[Array], list[bool], dict[str, str]]:
-    """The model, an engine of it, what it reads from each log, on its grid, which of these parts
-    are behind a gap, and by what time."""
+) -> tuple[Compilation, Engine, list[tuple[str, Piece]], dict[str, str]]:
+    """The model, an engine of it, what it reads from each log, on its grid, and by what time."""
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
     from bondgraph.runtime.monitoring.watch_settings import engine_of, something_to_watch
@@ -179,8 +181,7 @@ def _logs(
     mapping = read_map(args.map, engine.signals) if args.map else None
     times = times_of(read)
     found = stretches(engine, read, mapping, args.operating, args.rate is not None)
-    samples, later = [p.samples for _, p in found], [bool(p.anew) for _, p in found]
-    return compilation, engine, samples, later, times
+    return compilation, engine, found, times
 
 
 def _climbs(found: list[Tuned]) -> bool:

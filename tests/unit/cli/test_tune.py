@@ -54,11 +54,23 @@ def test_one_log_is_told_to_say_nothing_of_other_days(bondgraph: Command, tmp_pa
     model, scenario = MODELS / "dc_motor.bg", tmp_path / "healthy.toml"
     inputs = 'U = "6*(1 + 0.2*sin(2*pi*t))"\nload = "0.2 mN.m"'
     scenario.write_text(f'duration = "20 s"\n[inputs]\n{inputs}\n')
-    one, two = tmp_path / "one.csv", tmp_path / "two.csv"
+    folder = tmp_path / "logs"
+    folder.mkdir()
+    one, two = folder / "one.csv", folder / "two.csv"
     for log in (one, two):
         assert bondgraph("simulate", model, scenario, "-o", log).status == 0
     words = ("--bandwidth", "20", "-o", tmp_path / "tuning.json")
-    alone, both = (bondgraph("tune", model, *logs, *words) for logs in ([one], [one, two]))
+    alone, both, inside = (
+        bondgraph("tune", model, *logs, *words) for logs in ([one], [one, two], [folder])
+    )
     assert alone.status == both.status == 0, alone.err
     assert "One log does not tell how far others stand apart" in alone.out
     assert "One log" not in both.out
+    assert inside.out == both.out
+
+
+@pytest.mark.parametrize("command", ["fit", "tune"])
+def test_a_folder_without_a_log_is_told(bondgraph: Command, command: str, tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").touch()
+    done = bondgraph(command, MODELS / "dc_motor.bg", tmp_path)
+    assert done.status == 1 and f"no log to read in {tmp_path}" in done.err
