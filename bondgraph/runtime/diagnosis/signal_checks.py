@@ -28,7 +28,8 @@ _MANY = 100  # rows that tell how rough a signal may become: with fewer, half as
 _ALONE = 3.0  # times as far out as all around it: a spike is alone
 _ROUGHER = 2.0  # times as rough, beside its own motion, as any row was
 _WHITE = 0.7  # so rough beside its own motion is white noise at least: 0.8 or more
-_CHANGES = 0.3  # share of the samples that differ from the last, in any row of a noisy signal
+_CHANGES = 0.3  # share of the samples that differ from the last, at any time in a noisy signal
+_SHARE = 50  # samples of which such a share is taken: of 15 one that is 0.5 falls to 0.2
 _STILL = 5.0  # times as long as it ever stood still
 _LEAST = 20  # samples that it has to stand still for
 _QUIET = 3  # rows after which it is as it was; a spike with the one behind it
@@ -111,7 +112,8 @@ class SignalChecks:
         self._calm = np.full(count, math.inf)  # roughness of the smoothest row, beside its motion
         self._range = np.array([np.full(count, math.inf), np.full(count, -math.inf)])
         self._still = np.zeros(count)  # longest run of equal values that has ended
-        self._least = np.ones(count)  # share of the samples of a row that differ from the last
+        self._least = np.ones(count)  # share of the samples that differ from the last
+        self._differ = np.zeros((2, count))  # of the healthy rows since the last share: such, all
         self.active: dict[str, Unusual] = {}
         self._away: dict[str, int] = {}  # rows since it was unusual last
         self._needed: dict[str, int] = {}  # rows that it has to be away for
@@ -317,12 +319,25 @@ class SignalChecks:
             table[which] = np.maximum(table, more)[which]
         for table, more, which in (
             (self._range[0], own.min(axis=0), fresh),
-            (self._least, changes, fresh & usual),
+            (self._least, self._share(len(own), changes, usual), fresh & usual),
             (self._calm, beside, fresh & usual & (moved > 0)),
         ):
             table[which] = np.minimum(table, more)[which]
         self._samples += np.where(fresh, len(own), 0)
         self._rows += fresh
+
+    def _share(self, count: int, changes: Array, usual: Mask) -> Array:
+        """How many of the samples changed since the last share, with a row of `count` more.
+
+        One where there are not enough yet. Rows in which a signal may have begun to stand still
+        begin anew.
+        """
+        more = [changes * count, np.full_like(changes, count)]
+        self._differ = np.where(usual, self._differ + more, 0.0)
+        enough = self._differ[1] >= _SHARE
+        share = np.where(enough, self._differ[0] / np.maximum(self._differ[1], 1.0), 1.0)
+        self._differ[:, enough] = 0.0
+        return share
 
     def _looked_at(self, samples: Array, answers: Mask) -> tuple[Array, Array, Array, Array]:
         """Of samples (n, signals): the largest spike, by how much it is off what its neighbours let

@@ -124,6 +124,22 @@ def test_a_signal_that_stands_still_is_told(column: int, name: str) -> None:
     assert one.since == pytest.approx(2000 * _STEP, abs=3 * _STEP)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_that_a_reading_in_steps_of_a_converter_stands_still_is_told_in_short_rows(
+    seed: int,
+) -> None:
+    """Half its samples change, but in some row of 15 only two do."""
+    draw = np.random.default_rng(seed)
+    k = np.arange(4500)
+    wave = 20.0 + 3.0 * np.sin(k / 250.0)
+    samples = np.column_stack([np.round(wave + 0.08 * draw.normal(size=4500), 1), wave])
+    samples[4000:, 0] = samples[4000, 0]
+    checks = SignalChecks(["T", "w"], [0, 1], _STEP)
+    rows = [samples[at : at + 15] for at in range(0, 4500, 15)]
+    said = [one for n, row in enumerate(rows) for one in checks.row(n * 15 * _STEP, row, n < 266)]
+    assert [(one.signal, one.kind) for one in said] == [("T", "stuck")]
+
+
 def test_a_command_without_noise_may_be_held() -> None:
     samples = _signals(7)
     samples[:, 1] = np.repeat([0.0, 1.0, 0.3, 0.6], 1000)
