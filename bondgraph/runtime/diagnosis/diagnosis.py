@@ -127,7 +127,7 @@ class Diagnosis:
 
     def waits(self) -> dict[str, str]:
         """See `Decision`."""
-        return self._status.waits(self._origins, self._limits[:, 0])
+        return self._status.waits(self._origins)
 
     # -------------------------------------------------------------------- samples
 

@@ -11,6 +11,7 @@ from bondgraph.runtime.diagnosis.learning import FIRST, Learning
 from bondgraph.runtime.diagnosis.origins import Origins
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.recurrence import Recurrence
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.text.moment import moment
 from bondgraph.text.numerals import listed
@@ -24,11 +25,14 @@ class WatchStatus:
     def __init__(self, engine: Engine, used: Mask) -> None:
         self._engine, self._used = engine, used
         self._hopeless: Mask = np.zeros(len(used), dtype=np.bool_)  # that were said to be
+        self._breaks: Recurrence | None = None  # until the first beginning was told
+        self._untold = 0  # breaks since they were counted last
         self.restart()
 
     def restart(self) -> None:
         """The residuals begin anew."""
-        self._warm = False
+        self._untold += 1
+        self._warm, self._quiet = False, False  # whether they began, and nothing was told of it
         self._first: float | None = None  # s, of the first sample
         self._seen: Mask = np.zeros(len(self._used), dtype=np.bool_)  # that have had a value
         self._waits: Mask = np.zeros(len(self._used), dtype=np.bool_)  # that were said to wait
@@ -58,12 +62,24 @@ class WatchStatus:
         if not settled.any() and at - self._first < patience:
             return
         self._warm, self._waits = True, waiting
+        self._quiet = not self._news(at)
+        if self._quiet:
+            return
         silent = watched & ~self._seen
         if silent.any():
             message = f"{self.names(silent)} had no value so far: something that it reads is"
             message += " missing, an equation has no solution, or switches turn too often"
             out.append(Verdict("invalid", at, message=message))
         self._begin(at, watched & self._seen, waiting, np.isfinite(noise), origins, out)
+
+    def _news(self, at: float) -> bool:
+        """Whether to tell how the residuals begin at a time: first, and then as breaks are told."""
+        breaks, self._untold = self._untold, 0
+        if self._breaks is None:
+            self._breaks = Recurrence(self._engine.warm_up)
+            return True
+        self._breaks.add(breaks, at)
+        return self._breaks.due(at) > 0
 
     def _begin(
         self,
@@ -87,7 +103,7 @@ class WatchStatus:
         waiting = origins.waiting & self._used
         lost = waiting & origins.lost & ~self._waits
         over = self._waits & ~waiting
-        if not self._warm:
+        if not self._warm or self._quiet:
             return
         if lost.any():
             out.append(Verdict("invalid", time, message=self._waiting(lost, origins)))
@@ -100,7 +116,7 @@ class WatchStatus:
             out.append(Verdict("warm-up", time, message=message))
         self._waits = (self._waits & waiting) | lost
 
-    def waits(self, origins: Origins, noise: Array) -> dict[str, str]:
+    def waits(self, origins: Origins) -> dict[str, str]:
         """Why residuals are not watched, by name: what nobody knows of them yet, or never will."""
         found = {}
         for k, name in enumerate(self._engine.residuals):
@@ -109,8 +125,6 @@ class WatchStatus:
                 found[name] = f"it {self._waiting(own, origins).removeprefix(name + ' ')}"
             elif self._hopeless[k]:
                 found[name] = "it is an approximation that is far off"
-            elif self._used[k] and not math.isfinite(noise[k]):
-                found[name] = "its noise is not known yet"
         return found
 
     def learned(self, time: float, fresh: Mask, found: Learning, out: list[Verdict]) -> None:

@@ -6,7 +6,7 @@ that has fallen silent: each has a `Recurrence` or a `Silence` that says when, a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.account import Account
@@ -43,9 +43,10 @@ class Disturbances:
         say: Callable[[Verdict], None],
     ) -> None:
         self._account, self._states, self._warm_up, self._say = account, states, warm_up, say
-        self._lines, self._unmatched = Recurrence(), Recurrence()
-        self._overflow, self._thrown, self._gaps = Recurrence(), Recurrence(), Recurrence()
-        self._values, self._exhausted = Recurrence(), Recurrence()
+        self._lines, self._unmatched = Recurrence(warm_up), Recurrence(warm_up)
+        self._overflow, self._thrown = Recurrence(warm_up), Recurrence(warm_up)
+        self._gaps, self._values = Recurrence(warm_up), Recurrence(warm_up)
+        self._exhausted = Recurrence(warm_up)
         self._why = ""  # samples could not be matched
         self._causes = dict.fromkeys(THROWN, 0)  # of samples that were thrown away, not told yet
         self._now = _NOTHING  # the signals that are missing
@@ -117,13 +118,20 @@ class Disturbances:
         message = f"{piece.anew}; the residuals warm up, and what happens from {_moment(begin)} to"
         message += f" about {_moment(start + self._warm_up)} may be missed"
         if count > 2:
-            message += f" ({count} gaps in a row: tell the rate of the samples by --rate)"
+            lost = piece.gap is None or (piece.gap.lost and not piece.gap.off)
+            rate = ": tell the rate of the samples by --rate" if lost else ""
+            message += f" ({count} gaps in a row{rate})"
         self._say(Verdict("gap", start, message=message))
 
     # --------------------------------------------------------------------- signals and values
 
-    def values(self, time: Array, valid: Mask, changes: list[Change]) -> None:
-        """Signals began or ceased to be missing in some samples, of which residuals are `valid`."""
+    def values(
+        self, time: Array, valid: Mask, changes: list[Change], waits: Callable[[], Container[str]]
+    ) -> None:
+        """Signals began or ceased to be missing in some samples, of which residuals are `valid`.
+
+        Of which residuals the decision has said itself that it `waits` with them.
+        """
         ends = [c.at for c in changes] + [len(time)]
         self._returned(time, valid, 0, ends[0])
         for change, end in zip(changes, ends[1:], strict=True):
@@ -135,7 +143,11 @@ class Disturbances:
             self._now = change
             self._tell_values(change.time)
             self._returned(time, valid, change.at, end)
-        self._wear(float(time[-1]))
+        worn = self._states.exhausted
+        if worn:
+            known = waits()
+            worn = tuple(name for name in worn if name not in known)
+        self._wear(float(time[-1]), worn)
 
     def _tell_values(self, time: float) -> None:
         """Say which signals are missing, if that is news that is due."""
@@ -169,9 +181,8 @@ class Disturbances:
         self._say(Verdict("warm-up", at, message=text))
         self._blind = _NOTHING
 
-    def _wear(self, time: float) -> None:
+    def _wear(self, time: float, worn: tuple[str, ...]) -> None:
         """Say which residuals have had no value for long, for no signal's sake."""
-        worn = self._states.exhausted
         if set(worn) - set(self._worn):
             self._exhausted.add(1, self.progress)
             if not self._exhausted.due(self.progress):

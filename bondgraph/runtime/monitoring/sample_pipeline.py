@@ -189,13 +189,14 @@ class Monitor:
             message += f", {self.account.samples['off']} of them while the machine was off"
         if words := self.account.words():
             message += f"; {words}"
+        waits = self._parts.decision.waits()
         lines = self._parts.decision.decided().bound[-1:]
-        blind = [
-            n for k, n in enumerate(self._parts.engine.residuals) if (lines != lines)[:, k].any()
-        ]
+        unknown = zip(self._parts.engine.residuals, (lines != lines).any(axis=0), strict=True)
+        blind = [name for name, own in unknown if own and name not in waits]
         if blind:
             verb = "is" if len(blind) == 1 else "are"
             message += f"; {listed(blind, 'and')} {verb} not watched: the noise is not known"
+        message += "".join(f"; {name} is not watched: {why}" for name, why in waits.items())
         self._ending = message
         self.account.verdicts["stop"] += 1  # it is in its own account
         snapshot = self.snapshot(clocks.monotonic()).to_record()
@@ -303,7 +304,7 @@ class Monitor:
         told, changes = self.states.add(piece.time, piece.samples, decided, said)
         for verdict in said:
             self._say(verdict)
-        self._disturbances.values(piece.time, decided.valid, changes)
+        self._disturbances.values(piece.time, decided.valid, changes, parts.decision.waits)
         for listener in parts.listeners:
             listener.add(piece.time, decided, told)
         self._time = self._newest

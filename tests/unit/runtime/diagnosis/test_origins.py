@@ -211,6 +211,36 @@ def test_an_arm_waits_until_it_has_met_its_bumper(tmp_path: Path) -> None:
     assert told == pytest.approx(columns["angle"][0] - columns["angle"][3000], abs=5)
 
 
+def test_what_waits_for_its_start_is_told_as_that_to_the_end(tmp_path: Path) -> None:
+    """Its equations have a solution, and no switch turns: it was said to be blind for these."""
+    (tmp_path / "bumper.bg").write_text(stops.BUMPER)
+    machine = _Machine(str(tmp_path / "bumper.bg"))
+    columns = {name: column[:5700] for name, column in stops.bumper(0.05).items()}
+    time, samples = machine.anew(columns["t"], machine.samples(columns), 3000, lost=400)
+    time[3000:] += 3.4
+    frame = {"time": time, **dict(zip(machine.signals, samples.T, strict=True))}
+    log = pytest.importorskip("pandas").DataFrame(frame)
+    (said,) = bondgraph.monitor(machine.compilation, log).verdicts
+    assert [v.event for v in said[-3:]] == ["gap", "warm-up", "stop"]
+    why = "waits until the machine has shown by its motion where angle began"
+    assert said[-2].message == f"r1 {why}"
+    assert said[-1].message.endswith(f"r1 is not watched: it {why}")
+
+
+def test_what_waits_again_and_again_is_no_flood(press: _Machine) -> None:
+    """Stopped each second: told of the first break, the second, fourth and so on."""
+    columns = stops.press()
+    samples = np.tile(press.samples(columns), (3, 1))
+    number = np.arange(len(samples))
+    time = number * 1e-3 + number // 1000
+    for at in range(1000, len(time), 1000):
+        samples[at:, press.counters] -= samples[at, press.counters]
+    said, _ = press.watch(time, samples)
+    told = [v.time for v in said if "waits until" in v.message]
+    doubled = [float(time[1000 * n]) for n in (1, 2, 4, 8, 16)]
+    assert told == pytest.approx(doubled, abs=0.7)  # warm by then
+
+
 # ------------------------------------------------------------------------------------ the robot
 
 _STUCK, _END = 4200, 5300

@@ -40,6 +40,12 @@ def test_half_a_minute_without_it_makes_it_new() -> None:
     assert told([0.0, 1.0, 2.0, 40.0]) == [(0.0, 1), (1.0, 2), (40.0, 4)]
 
 
+def test_where_residuals_warm_up_for_long_ten_of_these_make_it_new() -> None:
+    times = [0.0, 100.0, 499.0, 1000.0]
+    assert told(times, Recurrence(50.0)) == [(0.0, 1), (100.0, 2), (499.0, 3), (1000.0, 1)]
+    assert told(times[:3], Recurrence(3.0)) == [(time, 1) for time in times[:3]]
+
+
 def test_a_new_one_begins_with_the_short_pause_again() -> None:
     one = Recurrence()
     assert told([0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0], one)[-1] == (120.0, 7)  # pause: 120
