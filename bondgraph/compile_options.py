@@ -36,6 +36,7 @@ class Options(NamedTuple):
     `parameters` are numbers in SI, by name, that take the place of those in the model: a dict, or
     pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
+    `tolerances` are relative, by name, and take the place of those in the model too.
     `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
     `extras` are files beside the code: `tests`, `exact`, `example`, `qemu`, `zephyr`, `espidf`,
     `arduino`, `ros2`, `misra`.
@@ -56,6 +57,7 @@ class Options(NamedTuple):
     open_ports: bool = False
     parameters: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
     offsets: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
+    tolerances: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
     tuning: Tuning | None = None
     extras: tuple[str, ...] = ()
     libm: bool = False
@@ -80,6 +82,7 @@ if TYPE_CHECKING:
         open_ports: bool
         parameters: Mapping[str, float] | tuple[tuple[str, float], ...]
         offsets: Mapping[str, float] | tuple[tuple[str, float], ...]
+        tolerances: Mapping[str, float] | tuple[tuple[str, float], ...]
         tuning: Tuning | None
         extras: tuple[str, ...]
         libm: bool
@@ -116,16 +119,20 @@ def checked(options: Options) -> Options:
         value = getattr(options, name)
         if isinstance(value, str):
             raise TypeError(f"{name} is a sequence of names: [{value!r}]")
-    numbers, offsets = (
+    numbers, offsets, tolerances = (
         {str(name): float(value) for name, value in dict(given).items()}
-        for given in (options.parameters, options.offsets)
+        for given in (options.parameters, options.offsets, options.tolerances)
     )
-    for name, value in (*numbers.items(), *offsets.items()):
+    for name, value in (*numbers.items(), *offsets.items(), *tolerances.items()):
         if not abs(value) < float("inf"):
             raise ValueError(f"{name} must be a finite number, not {value!r}")
+    for name, value in tolerances.items():
+        if value < 0.0:
+            raise ValueError(f"the tolerance of {name} must not be negative, as {value!r} is")
     return options._replace(
         parameters=tuple(numbers.items()),
         offsets=tuple(offsets.items()),
+        tolerances=tuple(tolerances.items()),
         targets=tuple(options.targets),
         extras=tuple(options.extras),
         decouple=tuple(options.decouple),

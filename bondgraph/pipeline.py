@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.log import Log
     from bondgraph.runtime.monitoring.columns import Mapped
     from bondgraph.runtime.monitoring.engine import Engine
+    from bondgraph.runtime.simulation.read_scenario import Numbers
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
     from bondgraph.views import Relations, Signatures
@@ -184,11 +185,13 @@ class Compilation:
             self._mend_units()
         found = self._stage(graph)
         given, offsets = dict(self.options.parameters), dict(self.options.offsets)
+        tolerances = dict(self.options.tolerances)
         try:
             found = found.with_values(given) if given else found
+            found = found.with_tolerances(tolerances) if tolerances else found
             return found.with_offsets(offsets) if offsets else found
         except KeyError as error:
-            what = "value" if error.args[0] in given else "sensor or input"
+            what = "sensor or input" if error.args[0] in offsets else "value"
             raise ValueError(f"the model has no {what} `{error.args[0]}`") from error
 
     @cached_property
@@ -246,10 +249,10 @@ class Compilation:
         assert found is not None
         return found
 
-    def numbers(self, source: Source) -> tuple[dict[str, float], dict[str, float]]:
-        """The numbers under [parameters] and [offsets] of a TOML text for this model, in SI.
+    def numbers(self, source: Source) -> Numbers:
+        """The numbers under [parameters], [offsets] and [tolerances] of a TOML text for this model.
 
-        Raises `CompileError` if it is wrong.
+        In SI. Raises `CompileError` if it is wrong.
         """
         from bondgraph.runtime.simulation.read_scenario import read_numbers
 
@@ -859,7 +862,10 @@ class Compilation:
         from bondgraph.passes.lowering.lower import LowerOptions
 
         rate, bandwidth, resolution = self.options[:3]
-        return LowerOptions(rate, bandwidth, resolution=resolution, libm=self.options.libm)
+        return LowerOptions(
+            rate, bandwidth, resolution=resolution, libm=self.options.libm,
+            tolerances=tuple(dict(self.options.tolerances).items()),
+        )  # fmt: skip
 
     def _emitted(
         self, targets: Sequence[str], extras: Sequence[str]
@@ -986,7 +992,7 @@ def compile(
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
     `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`,
-    `parameters`, `offsets`, `extras`, `libm`, `real`, `ranges`, `costs`.
+    `parameters`, `offsets`, `tolerances`, `extras`, `libm`, `real`, `ranges`, `costs`.
     Nothing is computed before a stage is asked for. Raises `CompileError` if the file cannot be
     read, TypeError for an unknown option, ValueError for a number that is not positive.
 

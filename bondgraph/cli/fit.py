@@ -20,7 +20,7 @@ from bondgraph.cli.options import (
 )
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.moment import moment
-from bondgraph.text.numerals import joined, plural
+from bondgraph.text.numerals import joined, listed, plural
 from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -138,6 +138,7 @@ def _result(compilation: Compilation, found: Fitted) -> dict[str, object]:
     return {
         "model": compilation.graph.name,
         "seconds": found.seconds,
+        "logs": found.logs,
         "bandwidth": found.bandwidth,
         "spread": found.spread,
         "parameters": [{**p._asdict(), "interval": p.interval} for p in found.parameters],
@@ -171,6 +172,12 @@ def _file(compilation: Compilation, found: Fitted) -> str:
     if offsets:
         lines += ["", "# What samples of a signal are too large by: it is taken off first."]
         lines += ["[offsets]", *offsets]
+    tolerances = [f'"{p.name}" = {p.tolerance!r}' for p in fitted if p.tolerance is not None]
+    tolerances += _given(options.tolerances, (p for p in fitted if p.tolerance is not None))
+    if tolerances:
+        lines += ["", "# Relative, in place of those of the model: further logs of this machine are"
+                  " within", "# them in 95 of 100. Without this section those of the model stay."]
+        lines += ["[tolerances]", *tolerances]
     lines += ["", "[standard_errors]"]
     lines += [f'"{p.name}" = {p.error!r}' for p in fitted if p.error is not None]
     return "\n".join(lines) + "\n"
@@ -206,13 +213,19 @@ def _plot(compilation: Compilation, found: Fitted, log: str) -> str:
 
 
 def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[str]:
-    rows: list[tuple[str, ...]] = [("parameter", "nominal", "fitted", "+- (95 %)", "unit")]
+    declared = compilation.diagnosis_model.tolerances
+    narrower = any(p.tolerance is not None for p in found.parameters)
+    head = ("parameter", "nominal", "fitted", "+- (95 %)", "unit")
+    rows: list[tuple[str, ...]] = [(*head, *(["tolerance"] if narrower else []))]
     for p in (*found.parameters, *found.offsets):
         sure = "not told" if p.interval is None else f"{p.interval:.2g}"
         sure = "at its bound" if p.bound else "no interval" if p.doubted else sure
         name = f"offset of {p.name}" if p in found.offsets else p.name
-        rows.append((name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit))
+        tolerance = declared.get(p.name) if p.tolerance is None else p.tolerance
+        within = [f"{100 * tolerance:.3g} %" if tolerance else ""] if narrower else []
+        rows.append((name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit, *within))
     lines = [_message(compilation, found), "", *console.columns(rows)]
+    lines += _tolerances(found, declared)
     if any(p.bound for p in found.parameters):
         names = ", ".join(p.name for p in found.parameters if p.bound)
         lines += ["", f"With another sign {names} would fit better: see to the signs of the"
@@ -236,6 +249,20 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
             more = " or more: no more is fitted, declare it in the model by `delay`"
             lines.append(f"  {delay.signal} comes {when} in the log{more if delay.bound else ''}")
     return [*lines, "", f"Written to {joined(files, 'and')}"]
+
+
+def _tolerances(found: Fitted, declared: Mapping[str, float]) -> list[str]:
+    """What became of the tolerances of the model, in words."""
+    narrower = [p for p in found.parameters if p.tolerance is not None]
+    told = [p for p in found.parameters if p.error is not None and declared.get(p.name)]
+    if narrower:
+        before = listed([f"{p.name} {100 * declared[p.name]:.3g} %" for p in narrower], "and")
+        return ["", f"The file has these tolerances instead of {before}: further logs of this"
+                " machine are within them in 95 of 100"]  # fmt: skip
+    if told and found.logs == 1:
+        return ["", "Tolerances stay as declared: one log does not tell how far parameters"
+                " stand apart from one to the next, three do"]  # fmt: skip
+    return []
 
 
 def _suspected(found: Fitted) -> list[str]:

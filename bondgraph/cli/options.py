@@ -223,8 +223,9 @@ def quoted(text: str) -> str:
 
 def numbered(parser: ArgumentParser) -> None:
     """The options `--parameters` and `--set`."""
-    parser.add_argument("--parameters", metavar="FILE.toml", help="other values of parameters, and"
-                        " offsets of sensors, as `bondgraph fit` writes them")  # fmt: skip
+    parser.add_argument("--parameters", metavar="FILE.toml",
+                        help="other values of parameters, with tolerances and offsets of sensors,"
+                        " as `bondgraph fit` writes them")  # fmt: skip
     parser.add_argument("--set", metavar="NAME=VALUE", type=setting, action="append", default=[],
                         help="another value of a parameter, in SI or with a unit (R=1.2 kOhm);"
                         " may be repeated")  # fmt: skip
@@ -243,14 +244,13 @@ def model_of(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
         sources.append(read(args.parameters, report))
         report.stop_on_error()
     sources += [Source("--set", f"parameters.{quoted(n)} = {v}") for n, v in args.set]
-    given: dict[str, float] = {}
-    offsets: dict[str, float] = {}
-    for source in filter(None, sources):
-        numbers, off = compilation.numbers(source)
-        given, offsets = given | numbers, offsets | off
-    if not given and not offsets:
+    known = [compilation.numbers(source) for source in filter(None, sources)]
+    if not any(any(numbers) for numbers in known):
         return compilation
-    return compilation.with_options(parameters=given, offsets=offsets)
+    given, offsets, tolerances = (
+        {name: value for numbers in known for name, value in numbers[k].items()} for k in range(3)
+    )
+    return compilation.with_options(parameters=given, offsets=offsets, tolerances=tolerances)
 
 
 def realised(parser: ArgumentParser, usual: Form | None = "derivative") -> None:

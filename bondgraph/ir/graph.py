@@ -282,6 +282,15 @@ class BondGraph(NamedTuple):
         values = tuple(v._replace(value=written.get(v.name, v.value)) for v in self.values)
         return self._replace(values=values)
 
+    def with_tolerances(self, tolerances: Mapping[str, float]) -> BondGraph:
+        """The same model with other relative tolerances; raises KeyError for another name."""
+        for name in tolerances:
+            if all(v.name != name for v in self.values):
+                raise KeyError(name)
+        own = {n: Fraction(repr(float(x))) for n, x in tolerances.items()}
+        values = tuple(v._replace(tolerance=own.get(v.name, v.tolerance)) for v in self.values)
+        return self._replace(values=values)
+
     def with_offsets(self, offsets: Mapping[str, float]) -> BondGraph:
         """The same model with offsets of sensors and inputs; raises KeyError for another name."""
         signals = {s.name for s in self.sensors} | {i.name for i in self.inputs}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from bondgraph.algebra.derivative import TooManyOperations
 from bondgraph.algebra.normalise import LIMIT, normalise
@@ -64,6 +64,7 @@ class LowerOptions(NamedTuple):
     which a term cannot be seen (12 bits). `time_unit` in s is what exact counts derivatives in,
     by default 1 s, or what keeps the coefficients of very long residuals near one. With `libm` step
     calls the functions of the library, else some that are near them (`algebra.near`).
+    `tolerances` are those that take the place of what the text says: the digest has them.
     """
 
     rate: float = 1000.0
@@ -72,6 +73,7 @@ class LowerOptions(NamedTuple):
     resolution: float = 2.0**-12
     time_unit: float | None = None
     libm: bool = False
+    tolerances: tuple[tuple[str, float], ...] = ()
 
 
 DEFAULT = LowerOptions()
@@ -181,7 +183,7 @@ def lower(
     )
     program = with_tables(pruned(program), graph.pool)
     program = program if options.libm else near_functions(program)
-    return program._replace(digest=digest(program, graph.source.text))
+    return program._replace(digest=digest(program, graph.source.text, options.tolerances))
 
 
 def _realise(
@@ -374,9 +376,12 @@ def with_tables(program: Program, pool: Pool) -> Program:
 _ADDED = ("openings", "follows", "delayed", "offset")
 
 
-def digest(program: Program, text: str) -> str:
-    """A hash of the model and of everything that the program computes, in hexadecimal."""
-    lines = [text.replace("\r\n", "\n")]
+def digest(program: Program, text: str, tolerances: Iterable[tuple[str, float]]) -> str:
+    """A hash of the model and of everything that the program computes, in hexadecimal.
+
+    Tolerances in place of those in the text change no residual, but what is known of it.
+    """
+    lines = [text.replace("\r\n", "\n"), *map(repr, sorted(tolerances))]
     for name in program._fields:
         if name in _ADDED and not getattr(program, name):
             continue

@@ -109,7 +109,7 @@ def thresholds(
         return None
     made = with_tables(pruned(made), graph.pool)
     made = made if options.libm else near_functions(made)
-    return made._replace(digest=digest(made, graph.source.text))
+    return made._replace(digest=digest(made, graph.source.text, options.tolerances))
 
 
 def _threshold(

@@ -18,7 +18,7 @@ from functools import partial
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.special import chdtri
+from scipy.special import chdtri, stdtrit
 
 from bondgraph.runtime.diagnosis.left_over import follows, instruments
 from bondgraph.runtime.diagnosis.remembered import Memory, up_to_gaps
@@ -65,7 +65,9 @@ class Fitting(NamedTuple):
     """One parameter: `value` in SI, and its standard `error`, None where the logs cannot tell it.
 
     `bound` says that it would have had to change its sign to fit better, `doubted` that what tells
-    it is wrong by more than noise: no error that is reckoned from noise would hold.
+    it is wrong by more than noise: no error that is reckoned from noise would hold. In 95 of 100
+    further logs it is within the relative `tolerance`; None where that of the model is no wider, or
+    where the logs cannot tell it.
     """
 
     name: str
@@ -75,6 +77,7 @@ class Fitting(NamedTuple):
     unit: str
     bound: bool
     doubted: bool = False
+    tolerance: float | None = None
 
     @property
     def interval(self) -> float | None:
@@ -182,7 +185,7 @@ class Suspect(NamedTuple):
 
 
 class Fitted(NamedTuple):
-    """Parameters from logs; `noise` by signal, as it was seen or given, `seconds` of use.
+    """Parameters from so many `logs`; `noise` by signal, as seen or given, `seconds` of use.
 
     `offsets` are those of signals that were asked for, with a nominal value of zero; `suspects`
     others that would explain what is left, the most likely one first. The filter was of this
@@ -202,11 +205,17 @@ class Fitted(NamedTuple):
     terms: tuple[Terms, ...]
     bandwidth: float
     spread: float
+    logs: int
 
     @property
     def values(self) -> dict[str, float]:
         """The fitted values of parameters in SI units, by name."""
         return {p.name: p.value for p in self.parameters}
+
+    @property
+    def tolerances(self) -> dict[str, float]:
+        """The relative tolerances that are narrower than those of the model, by name."""
+        return {p.name: p.tolerance for p in self.parameters if p.tolerance is not None}
 
     @property
     def offset_values(self) -> dict[str, float]:
@@ -264,11 +273,14 @@ def fit(
     told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
     sound = problem.told_by(at, [x.wrong for x in left])[:count] <= _MOST
     values = problem.values(at).tolist()
+    further = problem.scale * np.hypot(problem.apart(at), _SURE * deviation)
     own = tuple(
         Fitting(
             name, float(problem.nominal[k]), values[k],
             float(problem.scale[k] * deviation[k]) if told[k] and sound[k] else None,
             units.get(name, ""), bool(bound[k]), bool(told[k] and not sound[k]),
+            _narrower(further[k] / abs(values[k]), tolerances.get(name, 0.0))
+            if told[k] and values[k] else None,
         )
         for k, name in enumerate(names)
     )  # fmt: skip
@@ -294,7 +306,16 @@ def fit(
         own[:split], own[split:], suspects, found, left, delays, seen, runs.seconds,
         covariance / np.outer(apart, apart), problem.terms(at), engine.bandwidth,
         float(np.linalg.slogdet(covariance)[1]) / (2.0 * count),
+        len({name for name, _ in pieces}),
     )  # fmt: skip
+
+
+def _narrower(tolerance: float, declared: float) -> float | None:
+    """A tolerance in two digits, rounded up, if it is less than what is declared."""
+    if not 0.0 < tolerance < min(declared, 1.0):
+        return None
+    digit = 10.0 ** (math.floor(math.log10(tolerance)) - 1)
+    return float(f"{math.ceil(tolerance / digit) * digit:.3g}")
 
 
 def _more(covariance: Array, own: Sequence[int]) -> float | None:
@@ -652,6 +673,36 @@ class _Problem:
         inverse = _inverse(curved, self._spread)
         scatter *= few_rows(len(own)) ** 2 * len(own) / max(len(own) - len(at), 1)
         return np.asarray(inverse @ (scatter + prior) @ inverse)
+
+    def apart(self, at: Array) -> Array:
+        """How far parameters may stand from here in a further log, in 95 of 100, relative.
+
+        Of each log how far each parameter would have to move, by itself, to explain what is left
+        of it: one step of Gauss and Newton. A further one stands so far from their mean, beside how
+        they scatter, as a t with one less than their number does (of a prediction interval).
+        Infinite where fewer than two logs tell. All rows count: those that are far from what is
+        usual may be a log that differs.
+        """
+        usual, self._mask = self._mask, self._all
+        s, count = self._slopes(at), len(self.names)
+        self._mask = usual
+        logs: dict[str, Mask] = {}
+        for name, _, rows in self._runs.times():
+            logs.setdefault(name, np.zeros(len(s.value), dtype=np.bool_))[rows] = True
+        by, added = s.by[:count], s.added_by[:count]
+        score = np.array([np.einsum("atr,tr->a", by[:, k], s.value[k]) for k in logs.values()])
+        energy = np.array([
+            np.sum(by[:, k] ** 2 - added[:, k] ** 2, axis=(1, 2)) for k in logs.values()
+        ])  # fmt: skip
+        told = energy > _BLIND * energy.max(axis=0)
+        weight = np.where(told, energy, 0.0)
+        step = np.divide(score, energy, out=np.zeros_like(score), where=told)
+        many, whole = told.sum(axis=0), np.maximum(weight.sum(axis=0), 1e-300)
+        free = np.maximum(many - 1, 1)
+        mean = (weight * step).sum(axis=0) / whole
+        scatter = (weight * (step - mean) ** 2).sum(axis=0) / whole * many / free
+        further = stdtrit(free, 0.975) * np.sqrt(scatter * (1.0 + 1.0 / np.maximum(many, 1)))
+        return np.asarray(np.where(many > 1, np.abs(mean) + further, math.inf))
 
     def suspects(self, at: Array, units: Mapping[str, str]) -> tuple[Suspect, ...]:
         """The offsets that would explain what is left, each by itself, the most likely one first.

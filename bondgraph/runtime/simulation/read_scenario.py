@@ -36,6 +36,7 @@ from bondgraph.text.limits import (
     SCENARIO_FAULTS,
 )
 from bondgraph.text.source import Source, Span
+from bondgraph.text.tuples import NamedTuple
 
 STARTS = ("initial", "steady")
 METHODS = ("auto", "LSODA", "Radau", "BDF", "DOP853", "RK45", "RK23")
@@ -51,15 +52,23 @@ def read_scenario(source: Source, graph: BondGraph, report: Report) -> Scenario 
     return None if report.failed else found
 
 
-def read_numbers(
-    source: Source, graph: BondGraph, report: Report
-) -> tuple[dict[str, float], dict[str, float]]:
-    """[parameters] and [offsets] of a TOML text, in SI; errors in the report, also for neither.
+class Numbers(NamedTuple):
+    """What takes the place of the numbers in a model, by name: as in `Options`."""
+
+    parameters: dict[str, float]
+    offsets: dict[str, float]
+    tolerances: dict[str, float]
+
+
+def read_numbers(source: Source, graph: BondGraph, report: Report) -> Numbers:
+    """[parameters], [offsets] and [tolerances] of a TOML text, in SI; errors in the report.
+
+    Also for none of them.
 
     What else is in the text is not looked at: it may be what `bondgraph fit` writes, or a scenario.
     """
     content = _content(source, report)
-    found: tuple[dict[str, float], dict[str, float]] = {}, {}
+    found = Numbers({}, {}, {})
     if content is not None:
         found = _Reader(source, graph, report).numbers(content)
     if not any(found) and not report.failed:
@@ -113,11 +122,18 @@ class _Reader:
         self.values = {v.name: v for v in graph.values}
         self.lets = {x.name: x for x in graph.lets}
 
-    def numbers(
-        self, content: Mapping[str, object]
-    ) -> tuple[dict[str, float], dict[str, float]]:
+    def numbers(self, content: Mapping[str, object]) -> Numbers:
         top = Table(self.document, (), content)
-        return self._parameters(top.table("parameters")), self._offsets(top.table("offsets"))
+        tolerances = top.table("tolerances")
+        return Numbers(
+            self._parameters(top.table("parameters")),
+            self._offsets(top.table("offsets")),
+            {
+                key: tolerances.number(key, PURE, 0.0, 0.0, 1.0)
+                for key in tolerances.keys
+                if self._known(tolerances, key, key, "parameter", self.values)
+            },
+        )
 
     def read(self, content: Mapping[str, object]) -> Scenario:
         top = Table(self.document, (), content)

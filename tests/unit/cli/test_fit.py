@@ -332,6 +332,60 @@ def test_what_was_given_and_is_not_fitted_stays_in_the_file(
     assert data["offsets"] == {"y": 0.0, "U": 0.125}
 
 
+def _smallest(bondgraph: Command, options: list[str]) -> float:
+    """The change of R, relative, that is sure to show in the first log."""
+    done = bondgraph("tune", "c.bg", "r0.csv", "--json", *options)
+    (one,) = [s for s in json.loads(done.out)["faults"] if s["fault"] == "R"]
+    return float(one["relative"])
+
+
+def test_tolerances_go_from_logs_that_differ_to_the_thresholds(
+    bondgraph: Command, folder: Path
+) -> None:
+    """Three circuits of 1.98, 2 and 2.02 Ohm: of a further one 4.303*0.02*sqrt(4/3)/2 = 5 %."""
+    text = MODEL.replace("+- 5%", "+- 20%")
+    Path("c.bg").write_text(text)
+    t = np.arange(6000) / 1000.0
+    i = np.sin(8.0 * t) + 0.5 * np.sin(21.0 * t)
+    rate = 8.0 * np.cos(8.0 * t) + 10.5 * np.cos(21.0 * t)
+    for k, R in enumerate((1.98, 2.0, 2.02)):
+        noise = 0.003 * np.random.default_rng(k).standard_normal(len(t))
+        write_log(Log(t, {"U": R * i + 1e-3 * rate, "y": i + noise}, {}, {}), f"r{k}.csv")
+    done = bondgraph("fit", "c.bg", "r0.csv", "r1.csv", "r2.csv", "-o", "p.toml")
+    assert re.search(r"^  R .* Ohm +(4\.9|5|5\.1) %$", done.out, re.MULTILINE), done.out
+    assert "instead of R 20 %" in done.out
+    found = tomllib.loads((folder / "p.toml").read_text())["tolerances"]
+    assert found == {"R": pytest.approx(0.05, rel=0.05)}
+    one = package.compile("c.bg", parameters={"R": 2.0}, tolerances=found)
+    written = package.compile(text=text.replace("20%", f"{100 * found['R']:.15g}%"))
+    assert one.diagnosis_model.tolerances == pytest.approx(written.diagnosis_model.tolerances)
+    least = [_smallest(bondgraph, options) for options in ([], ["--parameters", "p.toml"])]
+    assert 3.0 < least[0] / least[1] < 4.5  # twice the tolerance, and noise in both
+    alone = bondgraph("fit", "c.bg", "r0.csv", "-o", "p.toml")
+    assert "one log does not tell how far parameters stand apart" in alone.out
+    assert "tolerances" not in tomllib.loads((folder / "p.toml").read_text())
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[tolerances]\nR = 5\n", "1"),
+        ("[tolerances]\nR = -0.1\n", "0"),
+        ("[tolerances]\nQ = 0.1\n", "no parameter `Q`"),
+    ],
+)
+def test_a_wrong_tolerance_is_told(
+    bondgraph: Command, folder: Path, text: str, said: str
+) -> None:
+    (folder / "p.toml").write_text(text)
+    done = bondgraph("tune", "c.bg", "log.csv", "--parameters", "p.toml")
+    assert done.status == 1
+    assert said in done.err
+    assert "p.toml:2" in done.err
+    with pytest.raises(ValueError, match="negative"):
+        package.compile(text=MODEL, tolerances={"R": -0.1})
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.stats import t
 
 import bondgraph
 from bondgraph import Course, Log, Scenario
@@ -273,6 +274,38 @@ def test_logs_with_gaps_and_several_logs_count_together() -> None:
     assert 0.5 < two.error / one.error < 0.95  # the root of a half
     late = TIME + np.where(TIME > 4.0, 5.0, 0.0)
     assert holds(only(c.fit({"a": Log(late, columns, {}, {})})), 3.0)
+
+
+@pytest.mark.parametrize(("logs", "seed"), [(3, 1), (5, 2), (8, 3)])
+def test_a_further_log_is_within_a_tolerance_by_how_logs_differ(logs: int, seed: int) -> None:
+    """The prediction interval of the values that were drawn, of which `fit` is told nothing."""
+    draw = np.random.default_rng(seed)
+    c = bondgraph.compile(text=ONE.replace("2 Ohm", "2 Ohm +- 30%"), rate=RATE)
+    true = 3.0 * (1.0 + 0.015 * draw.normal(size=logs))
+    many = {
+        str(k): Log(TIME, {"U": DRIVE, "y": DRIVE / R + noise(0.01, 10 * seed + k)}, {}, {})
+        for k, R in enumerate(true)
+    }
+    found = c.fit(many)
+    one = only(found)
+    width = t.ppf(0.975, logs - 1) * true.std(ddof=1) * math.sqrt(1.0 + 1.0 / logs)
+    assert one.tolerance is not None
+    assert one.tolerance * one.value == pytest.approx(width, rel=0.1)
+    assert found.tolerances == {"R": one.tolerance}
+    assert found.logs == logs
+
+
+def test_one_log_or_a_narrow_tolerance_leaves_that_of_the_model() -> None:
+    log = Log(TIME, {"U": DRIVE, "y": DRIVE / 3.0 + noise(0.01)}, {}, {})
+    wide = bondgraph.compile(text=ONE.replace("2 Ohm", "2 Ohm +- 30%"), rate=RATE)
+    assert only(wide.fit({"a": log})).tolerance is None
+    logs = {
+        str(k): Log(TIME, {"U": DRIVE, "y": DRIVE / R + noise(0.01)}, {}, {})
+        for k, R in enumerate((2.9, 3.0, 3.1))
+    }
+    assert only(wide.fit(logs)).tolerance is not None
+    for text in (ONE, ONE.replace("2 Ohm", "2 Ohm +- 1%")):
+        assert only(bondgraph.compile(text=text, rate=RATE).fit(logs)).tolerance is None
 
 
 def test_what_cannot_be_fitted_is_told_with_a_remedy() -> None:
