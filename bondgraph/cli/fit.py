@@ -19,7 +19,7 @@ from bondgraph.cli.options import (
     sample_rate,
 )
 from bondgraph.text.diagnostic import Trouble
-from bondgraph.text.moment import moment
+from bondgraph.text.moment import lasting, moment
 from bondgraph.text.numerals import joined, listed, plural
 from bondgraph.text.whole_file import write_whole
 
@@ -129,7 +129,7 @@ def _message(compilation: Compilation, found: Fitted) -> str:
         many += f" and {known} of {plural(len(found.offsets), 'offset')}"
     doubted = sum(p.doubted for p in (*found.parameters, *found.offsets))
     return (
-        f"{compilation.graph.name}: {told} of {many} told by {found.seconds:.3g} s of"
+        f"{compilation.graph.name}: {told} of {many} told by {lasting(found.seconds, '.3g')} of"
         f" healthy operation{f', {doubted} fitted without an interval' if doubted else ''}"
     )
 
@@ -245,7 +245,9 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
     lines += _suspected(found)
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:
-            when = f"{1000 * abs(delay.value):.3g} ms {'early' if delay.value > 0.0 else 'late'}"
+            off = abs(delay.value)
+            when = f"{off:.3g} s" if off >= 1.0 else f"{1000 * off:.3g} ms"
+            when += " early" if delay.value > 0.0 else " late"
             more = " or more: no more is fitted, declare it in the model by `delay`"
             lines.append(f"  {delay.signal} comes {when} in the log{more if delay.bound else ''}")
     return [*lines, "", f"Written to {joined(files, 'and')}"]

@@ -19,6 +19,7 @@ from bondgraph.cli.options import (
 )
 from bondgraph.ir.residual_limit import NEVER
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.moment import lasting
 from bondgraph.text.numerals import listed, plural
 from bondgraph.text.whole_file import write_whole
 
@@ -219,7 +220,7 @@ def _message(compilation: Compilation, best: Tuned) -> str:
     t = best.tuning
     return (
         f"{compilation.graph.name}: {plural(len(t.limits), 'residual')}, tuned on"
-        f" {t.seconds:.0f} s for {t.false_alarms:g} false alarms an hour, filter of"
+        f" {lasting(t.seconds, '.0f')} for {t.false_alarms:g} false alarms an hour, filter of"
         f" {t.bandwidth:g} rad/s"
     )
 

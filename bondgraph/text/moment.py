@@ -1,10 +1,11 @@
-"""A time of a stream in words: seconds, or date and time where these are counted since 1970."""
+"""Times in words: a moment of a stream, in seconds or with its date, and how long it took."""
 
 from __future__ import annotations
 
 from datetime import UTC, datetime
 
 _DATES = 1e9  # s from which on they are of a clock, 2001 there: no machine has run for 31 years
+_LONG = 2.0  # of a unit, from which on it is used: 119 min, and 2 h
 _LAST = 253402300799.0  # s: the end of the year 9999
 
 
@@ -18,3 +19,16 @@ def moment(seconds: float, form: str = ".3f") -> str:
         return f"{seconds:{form}} s"
     found = datetime.fromtimestamp(round(seconds, 3), UTC)
     return found.isoformat(timespec="milliseconds").removesuffix("+00:00") + "Z"
+
+
+def lasting(seconds: float, form: str = ".3f") -> str:
+    """How long something took, as people read it: nobody counts a week in s.
+
+    `form` is that of the number of seconds, as far as it is told in these.
+
+    >>> lasting(0.5), lasting(360.0, ".3g"), lasting(13917.217), lasting(410000.0)
+    ('0.500 s', '360 s', '3.87 h', '4.75 days')
+    """
+    if seconds >= _LONG * 86400.0:
+        return f"{seconds / 86400.0:.3g} days"
+    return f"{seconds / 3600.0:.3g} h" if seconds >= _LONG * 3600.0 else f"{seconds:{form}} s"

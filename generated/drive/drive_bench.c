@@ -513,25 +513,25 @@ const drive_bench_threshold_coefficients drive_bench_threshold_nominal_coefficie
     REAL(2.0341880341880358e-06),  /* r1_w3_w1_m__me__we */
     REAL(0.006017094017094017),    /* r1_w4_m__wh__ws */
     REAL(2.051282051282053e-06),   /* r1_w4_w1_m__wh__ws */
-    REAL(8.173906256098037e-05),   /* r1_w5_m__me__we */
-    REAL(1.9232720602583634e-06),  /* r1_w5_w1_m__me__we */
-    REAL(8.242594543964407e-05),   /* r1_w5_m__wh__ws */
-    REAL(0.549506302930961),       /* r1_w5_w1_m__wh__ws */
-    REAL(0.0013737657573274012),   /* r1_w5_Fx */
-    REAL(0.00040869531280490187),  /* r1_w6_m__me__we */
-    REAL(0.0004121297271982203),   /* r1_w7_m__wh__ws */
-    REAL(3.269562502439215e-05),   /* r1_w8_m__me__we */
-    -REAL(7.804550599071153e-07),  /* r1_w8_w1_m__me__we */
-    REAL(2.622643718534134e-10),   /* r1_w8_w2_m__me__we */
-    REAL(3.2970378175857625e-05),  /* r1_w8_m__wh__ws */
-    -REAL(0.21980253241228603),    /* r1_w8_w1_m__wh__ws */
-    REAL(7.493267767240382e-05),   /* r1_w8_w2_m__wh__ws */
-    REAL(0.0005495063029309605),   /* r1_w8_Fx */
-    REAL(1.873316941810094e-07),   /* r1_w8_w1_Fx */
-    REAL(0.00016347812512196075),  /* r1_w9_m__me__we */
-    REAL(5.5731179018850293e-08),  /* r1_w9_w1_m__me__we */
-    REAL(0.00016485189087928813),  /* r1_w10_m__wh__ws */
-    REAL(5.619950825430282e-08),   /* r1_w10_w1_m__wh__ws */
+    REAL(6.208582901496288e-05),   /* r1_w5_m__me__we */
+    REAL(1.4608430356461866e-06),  /* r1_w5_w1_m__me__we */
+    REAL(6.260755867055079e-05),   /* r1_w5_m__wh__ws */
+    REAL(0.4173837244703391),      /* r1_w5_w1_m__wh__ws */
+    REAL(0.0010434593111758466),   /* r1_w5_Fx */
+    REAL(0.0003104291450748144),   /* r1_w6_m__me__we */
+    REAL(0.00031303779335275394),  /* r1_w7_m__wh__ws */
+    REAL(2.483433160598515e-05),   /* r1_w8_m__me__we */
+    -REAL(5.928034636696059e-07),  /* r1_w8_w1_m__me__we */
+    REAL(1.992058684972074e-10),   /* r1_w8_w2_m__me__we */
+    REAL(2.5043023468220318e-05),  /* r1_w8_m__wh__ws */
+    -REAL(0.16695349832553),       /* r1_w8_w1_m__wh__ws */
+    REAL(5.691596242777355e-05),   /* r1_w8_w2_m__wh__ws */
+    REAL(0.00041738372447033866),  /* r1_w8_Fx */
+    REAL(1.4228990606943374e-07),  /* r1_w8_w1_Fx */
+    REAL(0.00012417165802992576),  /* r1_w9_m__me__we */
+    REAL(4.2331247055656536e-08),  /* r1_w9_w1_m__me__we */
+    REAL(0.00012521511734110157),  /* r1_w10_m__wh__ws */
+    REAL(4.2686971820830126e-08),  /* r1_w10_w1_m__wh__ws */
     {562u, 562u},                  /* samples until each is valid */
     562u                           /* the longest of these */
 };
@@ -613,19 +613,19 @@ static void bound_compute_r1_w5(drive_bench_threshold_coefficients *c, real Re_t
         real product, real product_2, real product_6, real product_7)
 {
     /* khepera.bg:17: r1_w5: factor of m.me.we */
-    c->r1_w5_m__me__we = Re_times_fe_over_k / REAL(730.0);
+    c->r1_w5_m__me__we = REAL(37.0) * Re_times_fe_over_k / REAL(35560.0);
 
     /* r1_w5: factor of m.me.we' */
-    c->r1_w5_w1_m__me__we = product_7 / REAL(730.0);
+    c->r1_w5_w1_m__me__we = REAL(37.0) * product_7 / REAL(35560.0);
 
     /* r1_w5: factor of m.wh.ws */
-    c->r1_w5_m__wh__ws = product / REAL(730.0);
+    c->r1_w5_m__wh__ws = REAL(37.0) * product / REAL(35560.0);
 
     /* r1_w5: factor of m.wh.ws' */
-    c->r1_w5_w1_m__wh__ws = product_6 / REAL(730.0);
+    c->r1_w5_w1_m__wh__ws = REAL(37.0) * product_6 / REAL(35560.0);
 
     /* r1_w5: factor of Fx */
-    c->r1_w5_Fx = product_2 / REAL(730.0);
+    c->r1_w5_Fx = REAL(37.0) * product_2 / REAL(35560.0);
 }
 
 /* r1_w8: coefficients */
@@ -634,36 +634,36 @@ static void bound_compute_r1_w8(drive_bench_threshold_coefficients *c,
         real product_2, real product_3, real product_4, real product_5)
 {
     /* khepera.bg:17: r1_w8: factor of m.me.we */
-    c->r1_w8_m__me__we = Re_times_fe_over_k / REAL(1825.0);
+    c->r1_w8_m__me__we = REAL(37.0) * Re_times_fe_over_k / REAL(88900.0);
 
     /* r1_w8: factor of m.me.we' */
-    c->r1_w8_w1_m__me__we = p->m__el__k * p->m__el__k * w
+    c->r1_w8_w1_m__me__we = REAL(37.0) * p->m__el__k * p->m__el__k * w
             * (-REAL(2.0) * p->m__el__L * p->m__me__fe / p->m__el__k / p->m__el__k / p->m__el__k
             - REAL(2.0) * p->m__el__Re * p->m__me__Je / p->m__el__k / p->m__el__k / p->m__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r1_w8: factor of m.me.we'' */
-    c->r1_w8_w2_m__me__we = product_3 / REAL(1825.0);
+    c->r1_w8_w2_m__me__we = REAL(37.0) * product_3 / REAL(88900.0);
 
     /* r1_w8: factor of m.wh.ws */
-    c->r1_w8_m__wh__ws = product / REAL(1825.0);
+    c->r1_w8_m__wh__ws = REAL(37.0) * product / REAL(88900.0);
 
     /* r1_w8: factor of m.wh.ws' */
-    c->r1_w8_w1_m__wh__ws = p->m__el__k * p->m__el__k * w
+    c->r1_w8_w1_m__wh__ws = REAL(37.0) * p->m__el__k * p->m__el__k * w
             * (-REAL(2.0) * p->m__el__L * p->m__wh__fs / p->m__ge__N / p->m__el__k / p->m__el__k
                 / p->m__el__k
             - REAL(2.0) * p->m__el__Re * p->m__wh__Js / p->m__ge__N / p->m__el__k / p->m__el__k
                 / p->m__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r1_w8: factor of m.wh.ws'' */
-    c->r1_w8_w2_m__wh__ws = product_4 / REAL(1825.0);
+    c->r1_w8_w2_m__wh__ws = REAL(37.0) * product_4 / REAL(88900.0);
 
     /* r1_w8: factor of Fx */
-    c->r1_w8_Fx = product_2 / REAL(1825.0);
+    c->r1_w8_Fx = REAL(37.0) * product_2 / REAL(88900.0);
 
     /* r1_w8: factor of Fx' */
-    c->r1_w8_w1_Fx = product_5 / REAL(1825.0);
+    c->r1_w8_w1_Fx = REAL(37.0) * product_5 / REAL(88900.0);
 }
 
 /* r1_w9 to r1_w10: coefficients */
@@ -671,16 +671,16 @@ static void bound_compute_r1_w9_to_r1_w10(drive_bench_threshold_coefficients *c,
         real Re_times_fe_over_k, real product, real product_8, real product_9)
 {
     /* khepera.bg:17: r1_w9: factor of m.me.we */
-    c->r1_w9_m__me__we = Re_times_fe_over_k / REAL(365.0);
+    c->r1_w9_m__me__we = REAL(37.0) * Re_times_fe_over_k / REAL(17780.0);
 
     /* r1_w9: factor of m.me.we' */
-    c->r1_w9_w1_m__me__we = product_8 / REAL(365.0);
+    c->r1_w9_w1_m__me__we = REAL(37.0) * product_8 / REAL(17780.0);
 
     /* r1_w10: factor of m.wh.ws */
-    c->r1_w10_m__wh__ws = product / REAL(365.0);
+    c->r1_w10_m__wh__ws = REAL(37.0) * product / REAL(17780.0);
 
     /* r1_w10: factor of m.wh.ws' */
-    c->r1_w10_w1_m__wh__ws = product_9 / REAL(365.0);
+    c->r1_w10_w1_m__wh__ws = REAL(37.0) * product_9 / REAL(17780.0);
 }
 
 /* r1: coefficients */
@@ -726,10 +726,10 @@ static void bound_compute_r1(drive_bench_threshold_coefficients *c, const drive_
     bound_compute_r1_w5(c, Re_times_fe_over_k, product, product_2, product_6, product_7);
 
     /* khepera.bg:17: r1_w6: factor of m.me.we */
-    c->r1_w6_m__me__we = Re_times_fe_over_k / REAL(146.0);
+    c->r1_w6_m__me__we = REAL(37.0) * Re_times_fe_over_k / REAL(7112.0);
 
     /* r1_w7: factor of m.wh.ws */
-    c->r1_w7_m__wh__ws = product / REAL(146.0);
+    c->r1_w7_m__wh__ws = REAL(37.0) * product / REAL(7112.0);
 
     bound_compute_r1_w8(c, p, w, Re_times_fe_over_k, product, product_2, product_3, product_4,
             product_5);

@@ -679,72 +679,72 @@ class Thresholds:
         c.r1_w4_w1_m__wh__ws = product_9 / 10.0
 
         # r1_w5: factor of m.me.we
-        c.r1_w5_m__me__we = Re_times_fe_over_k / 730.0
+        c.r1_w5_m__me__we = 37.0 * Re_times_fe_over_k / 35560.0
 
         # r1_w5: factor of m.me.we'
-        c.r1_w5_w1_m__me__we = product_7 / 730.0
+        c.r1_w5_w1_m__me__we = 37.0 * product_7 / 35560.0
 
         # r1_w5: factor of m.wh.ws
-        c.r1_w5_m__wh__ws = product / 730.0
+        c.r1_w5_m__wh__ws = 37.0 * product / 35560.0
 
         # r1_w5: factor of m.wh.ws'
-        c.r1_w5_w1_m__wh__ws = product_6 / 730.0
+        c.r1_w5_w1_m__wh__ws = 37.0 * product_6 / 35560.0
 
         # r1_w5: factor of Fx
-        c.r1_w5_Fx = product_2 / 730.0
+        c.r1_w5_Fx = 37.0 * product_2 / 35560.0
 
         # r1_w6: factor of m.me.we
-        c.r1_w6_m__me__we = Re_times_fe_over_k / 146.0
+        c.r1_w6_m__me__we = 37.0 * Re_times_fe_over_k / 7112.0
 
         # r1_w7: factor of m.wh.ws
-        c.r1_w7_m__wh__ws = product / 146.0
+        c.r1_w7_m__wh__ws = 37.0 * product / 7112.0
 
         # r1_w8: factor of m.me.we
-        c.r1_w8_m__me__we = Re_times_fe_over_k / 1825.0
+        c.r1_w8_m__me__we = 37.0 * Re_times_fe_over_k / 88900.0
 
         # r1_w8: factor of m.me.we'
         c.r1_w8_w1_m__me__we = (
-            p.m__el__k * p.m__el__k * w
+            37.0 * p.m__el__k * p.m__el__k * w
                 * (-2.0 * p.m__el__L * p.m__me__fe / p.m__el__k / p.m__el__k / p.m__el__k
-                - 2.0 * p.m__el__Re * p.m__me__Je / p.m__el__k / p.m__el__k / p.m__el__k) / 3650.0
+                - 2.0 * p.m__el__Re * p.m__me__Je / p.m__el__k / p.m__el__k / p.m__el__k) / 177800.0
         )
 
         # r1_w8: factor of m.me.we''
-        c.r1_w8_w2_m__me__we = product_3 / 1825.0
+        c.r1_w8_w2_m__me__we = 37.0 * product_3 / 88900.0
 
         # r1_w8: factor of m.wh.ws
-        c.r1_w8_m__wh__ws = product / 1825.0
+        c.r1_w8_m__wh__ws = 37.0 * product / 88900.0
 
         # r1_w8: factor of m.wh.ws'
         c.r1_w8_w1_m__wh__ws = (
-            p.m__el__k * p.m__el__k * w
+            37.0 * p.m__el__k * p.m__el__k * w
                 * (-2.0 * p.m__el__L * p.m__wh__fs / p.m__ge__N / p.m__el__k / p.m__el__k
                     / p.m__el__k
                 - 2.0 * p.m__el__Re * p.m__wh__Js / p.m__ge__N / p.m__el__k / p.m__el__k
                     / p.m__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r1_w8: factor of m.wh.ws''
-        c.r1_w8_w2_m__wh__ws = product_4 / 1825.0
+        c.r1_w8_w2_m__wh__ws = 37.0 * product_4 / 88900.0
 
         # r1_w8: factor of Fx
-        c.r1_w8_Fx = product_2 / 1825.0
+        c.r1_w8_Fx = 37.0 * product_2 / 88900.0
 
         # r1_w8: factor of Fx'
-        c.r1_w8_w1_Fx = product_5 / 1825.0
+        c.r1_w8_w1_Fx = 37.0 * product_5 / 88900.0
 
         # r1_w9: factor of m.me.we
-        c.r1_w9_m__me__we = Re_times_fe_over_k / 365.0
+        c.r1_w9_m__me__we = 37.0 * Re_times_fe_over_k / 17780.0
 
         # r1_w9: factor of m.me.we'
-        c.r1_w9_w1_m__me__we = product_8 / 365.0
+        c.r1_w9_w1_m__me__we = 37.0 * product_8 / 17780.0
 
         # r1_w10: factor of m.wh.ws
-        c.r1_w10_m__wh__ws = product / 365.0
+        c.r1_w10_m__wh__ws = 37.0 * product / 17780.0
 
         # r1_w10: factor of m.wh.ws'
-        c.r1_w10_w1_m__wh__ws = product_9 / 365.0
+        c.r1_w10_w1_m__wh__ws = 37.0 * product_9 / 17780.0
 
     # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
     def _run_r1(self, s: Samples, r: Residuals) -> None:

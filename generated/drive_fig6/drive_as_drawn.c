@@ -554,28 +554,28 @@ const drive_as_drawn_threshold_coefficients drive_as_drawn_threshold_nominal_coe
     REAL(2.0341880341880358e-06),   /* r1_w3_w1_me__we */
     REAL(0.006017094017094017),     /* r1_w4_wh__ws */
     REAL(2.051282051282053e-06),    /* r1_w4_w1_wh__ws */
-    REAL(8.173906256098037e-05),    /* r1_w5_me__we */
-    REAL(1.9232720602583634e-06),   /* r1_w5_w1_me__we */
-    -REAL(0.054950630293096055),    /* r1_w5_tanh */
-    REAL(8.242594543964407e-05),    /* r1_w5_wh__ws */
-    REAL(0.549506302930961),        /* r1_w5_w1_wh__ws */
-    REAL(0.0013737657573274012),    /* r1_w5_Fx */
-    REAL(0.00040869531280490187),   /* r1_w6_me__we */
-    REAL(0.0004121297271982203),    /* r1_w7_wh__ws */
-    -REAL(0.021980252117238423),    /* r1_w8_tanh */
-    -REAL(7.4932677672403765e-06),  /* r1_w8_w1_tanh */
-    REAL(3.2970378175857625e-05),   /* r1_w8_wh__ws */
-    -REAL(0.21980253241228603),     /* r1_w8_w1_wh__ws */
-    REAL(7.493267767240382e-05),    /* r1_w8_w2_wh__ws */
-    REAL(0.0005495063029309605),    /* r1_w8_Fx */
-    REAL(1.873316941810094e-07),    /* r1_w8_w1_Fx */
-    REAL(3.269562502439215e-05),    /* r1_w8_me__we */
-    -REAL(7.804550599071153e-07),   /* r1_w8_w1_me__we */
-    REAL(2.622643718534134e-10),    /* r1_w8_w2_me__we */
-    REAL(0.00016347812512196075),   /* r1_w9_me__we */
-    REAL(5.5731179018850293e-08),   /* r1_w9_w1_me__we */
-    REAL(0.00016485189087928813),   /* r1_w10_wh__ws */
-    REAL(5.619950825430282e-08),    /* r1_w10_w1_wh__ws */
+    REAL(6.208582901496288e-05),    /* r1_w5_me__we */
+    REAL(1.4608430356461866e-06),   /* r1_w5_w1_me__we */
+    -REAL(0.04173837244703387),     /* r1_w5_tanh */
+    REAL(6.260755867055079e-05),    /* r1_w5_wh__ws */
+    REAL(0.4173837244703391),       /* r1_w5_w1_wh__ws */
+    REAL(0.0010434593111758466),    /* r1_w5_Fx */
+    REAL(0.0003104291450748144),    /* r1_w6_me__we */
+    REAL(0.00031303779335275394),   /* r1_w7_wh__ws */
+    -REAL(0.01669534897881355),     /* r1_w8_tanh */
+    -REAL(5.69159624277735e-06),    /* r1_w8_w1_tanh */
+    REAL(2.5043023468220318e-05),   /* r1_w8_wh__ws */
+    -REAL(0.16695349832553),        /* r1_w8_w1_wh__ws */
+    REAL(5.691596242777355e-05),    /* r1_w8_w2_wh__ws */
+    REAL(0.00041738372447033866),   /* r1_w8_Fx */
+    REAL(1.4228990606943374e-07),   /* r1_w8_w1_Fx */
+    REAL(2.483433160598515e-05),    /* r1_w8_me__we */
+    -REAL(5.928034636696059e-07),   /* r1_w8_w1_me__we */
+    REAL(1.992058684972074e-10),    /* r1_w8_w2_me__we */
+    REAL(0.00012417165802992576),   /* r1_w9_me__we */
+    REAL(4.2331247055656536e-08),   /* r1_w9_w1_me__we */
+    REAL(0.00012521511734110157),   /* r1_w10_wh__ws */
+    REAL(4.2686971820830126e-08),   /* r1_w10_w1_wh__ws */
     {562u, 562u},                   /* samples until each is valid */
     562u                            /* the longest of these */
 };
@@ -647,22 +647,22 @@ static void bound_compute_r1_w5(drive_as_drawn_threshold_coefficients *c, real R
         real product, real product_2, real product_3, real product_8, real product_9)
 {
     /* khepera.bg:17: r1_w5: factor of me.we */
-    c->r1_w5_me__we = Re_times_fe_over_k / REAL(730.0);
+    c->r1_w5_me__we = REAL(37.0) * Re_times_fe_over_k / REAL(35560.0);
 
     /* r1_w5: factor of me.we' */
-    c->r1_w5_w1_me__we = product_8 / REAL(730.0);
+    c->r1_w5_w1_me__we = REAL(37.0) * product_8 / REAL(35560.0);
 
     /* r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    c->r1_w5_tanh = product / REAL(365.0);
+    c->r1_w5_tanh = REAL(37.0) * product / REAL(17780.0);
 
     /* r1_w5: factor of wh.ws */
-    c->r1_w5_wh__ws = product_2 / REAL(730.0);
+    c->r1_w5_wh__ws = REAL(37.0) * product_2 / REAL(35560.0);
 
     /* r1_w5: factor of wh.ws' */
-    c->r1_w5_w1_wh__ws = product_9 / REAL(730.0);
+    c->r1_w5_w1_wh__ws = REAL(37.0) * product_9 / REAL(35560.0);
 
     /* r1_w5: factor of Fx */
-    c->r1_w5_Fx = product_3 / REAL(730.0);
+    c->r1_w5_Fx = REAL(37.0) * product_3 / REAL(35560.0);
 }
 
 /* r1_w3 to r1_w6: coefficients */
@@ -685,7 +685,7 @@ static void bound_compute_r1_w3_to_r1_w6(drive_as_drawn_threshold_coefficients *
     bound_compute_r1_w5(c, Re_times_fe_over_k, product, product_2, product_3, product_8, product_9);
 
     /* khepera.bg:17: r1_w6: factor of me.we */
-    c->r1_w6_me__we = Re_times_fe_over_k / REAL(146.0);
+    c->r1_w6_me__we = REAL(37.0) * Re_times_fe_over_k / REAL(7112.0);
 }
 
 /* r1_w8: coefficients */
@@ -695,39 +695,39 @@ static void bound_compute_r1_w8(drive_as_drawn_threshold_coefficients *c,
         real product_7)
 {
     /* khepera.bg:17: r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    c->r1_w8_tanh = REAL(2.0) * product / REAL(1825.0);
+    c->r1_w8_tanh = REAL(37.0) * product / REAL(44450.0);
 
     /* r1_w8: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
-    c->r1_w8_w1_tanh = REAL(2.0) * product_5 / REAL(1825.0);
+    c->r1_w8_w1_tanh = REAL(37.0) * product_5 / REAL(44450.0);
 
     /* r1_w8: factor of wh.ws */
-    c->r1_w8_wh__ws = product_2 / REAL(1825.0);
+    c->r1_w8_wh__ws = REAL(37.0) * product_2 / REAL(88900.0);
 
     /* r1_w8: factor of wh.ws' */
-    c->r1_w8_w1_wh__ws = p->el__k * p->el__k * w
+    c->r1_w8_w1_wh__ws = REAL(37.0) * p->el__k * p->el__k * w
             * (-REAL(2.0) * p->el__Re * p->wh__Js / p->ge__N / p->el__k / p->el__k / p->el__k
             - REAL(2.0) * p->el__L * p->wh__fs / p->ge__N / p->el__k / p->el__k / p->el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r1_w8: factor of wh.ws'' */
-    c->r1_w8_w2_wh__ws = product_6 / REAL(1825.0);
+    c->r1_w8_w2_wh__ws = REAL(37.0) * product_6 / REAL(88900.0);
 
     /* r1_w8: factor of Fx */
-    c->r1_w8_Fx = product_3 / REAL(1825.0);
+    c->r1_w8_Fx = REAL(37.0) * product_3 / REAL(88900.0);
 
     /* r1_w8: factor of Fx' */
-    c->r1_w8_w1_Fx = product_7 / REAL(1825.0);
+    c->r1_w8_w1_Fx = REAL(37.0) * product_7 / REAL(88900.0);
 
     /* r1_w8: factor of me.we */
-    c->r1_w8_me__we = Re_times_fe_over_k / REAL(1825.0);
+    c->r1_w8_me__we = REAL(37.0) * Re_times_fe_over_k / REAL(88900.0);
 
     /* r1_w8: factor of me.we' */
-    c->r1_w8_w1_me__we = p->el__k * p->el__k * w
+    c->r1_w8_w1_me__we = REAL(37.0) * p->el__k * p->el__k * w
             * (-REAL(2.0) * p->el__Re * p->me__Je / p->el__k / p->el__k / p->el__k
-            - REAL(2.0) * p->el__L * p->me__fe / p->el__k / p->el__k / p->el__k) / REAL(3650.0);
+            - REAL(2.0) * p->el__L * p->me__fe / p->el__k / p->el__k / p->el__k) / REAL(177800.0);
 
     /* r1_w8: factor of me.we'' */
-    c->r1_w8_w2_me__we = product_4 / REAL(1825.0);
+    c->r1_w8_w2_me__we = REAL(37.0) * product_4 / REAL(88900.0);
 }
 
 /* r1_w9 to r1_w10: coefficients */
@@ -735,16 +735,16 @@ static void bound_compute_r1_w9_to_r1_w10(drive_as_drawn_threshold_coefficients 
         real Re_times_fe_over_k, real product_2, real product_10, real product_11)
 {
     /* khepera.bg:17: r1_w9: factor of me.we */
-    c->r1_w9_me__we = Re_times_fe_over_k / REAL(365.0);
+    c->r1_w9_me__we = REAL(37.0) * Re_times_fe_over_k / REAL(17780.0);
 
     /* r1_w9: factor of me.we' */
-    c->r1_w9_w1_me__we = product_10 / REAL(365.0);
+    c->r1_w9_w1_me__we = REAL(37.0) * product_10 / REAL(17780.0);
 
     /* r1_w10: factor of wh.ws */
-    c->r1_w10_wh__ws = product_2 / REAL(365.0);
+    c->r1_w10_wh__ws = REAL(37.0) * product_2 / REAL(17780.0);
 
     /* r1_w10: factor of wh.ws' */
-    c->r1_w10_w1_wh__ws = product_11 / REAL(365.0);
+    c->r1_w10_w1_wh__ws = REAL(37.0) * product_11 / REAL(17780.0);
 }
 
 /* r1: coefficients */
@@ -797,7 +797,7 @@ static void bound_compute_r1(drive_as_drawn_threshold_coefficients *c,
             product_9, product_10, product_11);
 
     /* khepera.bg:17: r1_w7: factor of wh.ws */
-    c->r1_w7_wh__ws = product_2 / REAL(146.0);
+    c->r1_w7_wh__ws = REAL(37.0) * product_2 / REAL(7112.0);
 
     bound_compute_r1_w8(c, p, w, Re_times_fe_over_k, product, product_2, product_3, product_4,
             product_5, product_6, product_7);

@@ -761,77 +761,77 @@ class Thresholds:
         c.r1_w4_w1_wh__ws = product_11 / 10.0
 
         # r1_w5: factor of me.we
-        c.r1_w5_me__we = Re_times_fe_over_k / 730.0
+        c.r1_w5_me__we = 37.0 * Re_times_fe_over_k / 35560.0
 
         # r1_w5: factor of me.we'
-        c.r1_w5_w1_me__we = product_8 / 730.0
+        c.r1_w5_w1_me__we = 37.0 * product_8 / 35560.0
 
         # r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        c.r1_w5_tanh = product / 365.0
+        c.r1_w5_tanh = 37.0 * product / 17780.0
 
         # r1_w5: factor of wh.ws
-        c.r1_w5_wh__ws = product_2 / 730.0
+        c.r1_w5_wh__ws = 37.0 * product_2 / 35560.0
 
         # r1_w5: factor of wh.ws'
-        c.r1_w5_w1_wh__ws = product_9 / 730.0
+        c.r1_w5_w1_wh__ws = 37.0 * product_9 / 35560.0
 
         # r1_w5: factor of Fx
-        c.r1_w5_Fx = product_3 / 730.0
+        c.r1_w5_Fx = 37.0 * product_3 / 35560.0
 
         # r1_w6: factor of me.we
-        c.r1_w6_me__we = Re_times_fe_over_k / 146.0
+        c.r1_w6_me__we = 37.0 * Re_times_fe_over_k / 7112.0
 
         # r1_w7: factor of wh.ws
-        c.r1_w7_wh__ws = product_2 / 146.0
+        c.r1_w7_wh__ws = 37.0 * product_2 / 7112.0
 
         # r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        c.r1_w8_tanh = 2.0 * product / 1825.0
+        c.r1_w8_tanh = 37.0 * product / 44450.0
 
         # r1_w8: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
-        c.r1_w8_w1_tanh = 2.0 * product_5 / 1825.0
+        c.r1_w8_w1_tanh = 37.0 * product_5 / 44450.0
 
         # r1_w8: factor of wh.ws
-        c.r1_w8_wh__ws = product_2 / 1825.0
+        c.r1_w8_wh__ws = 37.0 * product_2 / 88900.0
 
         # r1_w8: factor of wh.ws'
         c.r1_w8_w1_wh__ws = (
-            p.el__k * p.el__k * w
+            37.0 * p.el__k * p.el__k * w
                 * (-2.0 * p.el__Re * p.wh__Js / p.ge__N / p.el__k / p.el__k / p.el__k
-                - 2.0 * p.el__L * p.wh__fs / p.ge__N / p.el__k / p.el__k / p.el__k) / 3650.0
+                - 2.0 * p.el__L * p.wh__fs / p.ge__N / p.el__k / p.el__k / p.el__k) / 177800.0
         )
 
         # r1_w8: factor of wh.ws''
-        c.r1_w8_w2_wh__ws = product_6 / 1825.0
+        c.r1_w8_w2_wh__ws = 37.0 * product_6 / 88900.0
 
         # r1_w8: factor of Fx
-        c.r1_w8_Fx = product_3 / 1825.0
+        c.r1_w8_Fx = 37.0 * product_3 / 88900.0
 
         # r1_w8: factor of Fx'
-        c.r1_w8_w1_Fx = product_7 / 1825.0
+        c.r1_w8_w1_Fx = 37.0 * product_7 / 88900.0
 
         # r1_w8: factor of me.we
-        c.r1_w8_me__we = Re_times_fe_over_k / 1825.0
+        c.r1_w8_me__we = 37.0 * Re_times_fe_over_k / 88900.0
 
         # r1_w8: factor of me.we'
         c.r1_w8_w1_me__we = (
-            p.el__k * p.el__k * w * (-2.0 * p.el__Re * p.me__Je / p.el__k / p.el__k / p.el__k
-                - 2.0 * p.el__L * p.me__fe / p.el__k / p.el__k / p.el__k) / 3650.0
+            37.0 * p.el__k * p.el__k * w * (-2.0 * p.el__Re * p.me__Je / p.el__k / p.el__k / p.el__k
+                - 2.0 * p.el__L * p.me__fe / p.el__k / p.el__k / p.el__k) / 177800.0
         )
 
         # r1_w8: factor of me.we''
-        c.r1_w8_w2_me__we = product_4 / 1825.0
+        c.r1_w8_w2_me__we = 37.0 * product_4 / 88900.0
 
         # r1_w9: factor of me.we
-        c.r1_w9_me__we = Re_times_fe_over_k / 365.0
+        c.r1_w9_me__we = 37.0 * Re_times_fe_over_k / 17780.0
 
         # r1_w9: factor of me.we'
-        c.r1_w9_w1_me__we = product_10 / 365.0
+        c.r1_w9_w1_me__we = 37.0 * product_10 / 17780.0
 
         # r1_w10: factor of wh.ws
-        c.r1_w10_wh__ws = product_2 / 365.0
+        c.r1_w10_wh__ws = 37.0 * product_2 / 17780.0
 
         # r1_w10: factor of wh.ws'
-        c.r1_w10_w1_wh__ws = product_11 / 365.0
+        c.r1_w10_w1_wh__ws = 37.0 * product_11 / 17780.0
 
     # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
     def _run_r1(self, s: Samples, r: Residuals) -> None:

@@ -812,25 +812,25 @@ const khepera_threshold_coefficients khepera_threshold_nominal_coefficients = {
     REAL(2.0341880341880358e-06),    /* r1_w3_w1_m__1__me__we */
     REAL(0.006017094017094017),      /* r1_w4_m__1__wh__ws */
     REAL(2.051282051282053e-06),     /* r1_w4_w1_m__1__wh__ws */
-    REAL(8.173906256098037e-05),     /* r1_w5_m__1__me__we */
-    REAL(1.9232720602583634e-06),    /* r1_w5_w1_m__1__me__we */
-    REAL(8.242594543964407e-05),     /* r1_w5_m__1__wh__ws */
-    REAL(0.549506302930961),         /* r1_w5_w1_m__1__wh__ws */
-    REAL(0.0013737657573274012),     /* r1_w5_Fx__1 */
-    REAL(0.00040869531280490187),    /* r1_w6_m__1__me__we */
-    REAL(0.0004121297271982203),     /* r1_w7_m__1__wh__ws */
-    REAL(3.269562502439215e-05),     /* r1_w8_m__1__me__we */
-    -REAL(7.804550599071153e-07),    /* r1_w8_w1_m__1__me__we */
-    REAL(2.622643718534134e-10),     /* r1_w8_w2_m__1__me__we */
-    REAL(3.2970378175857625e-05),    /* r1_w8_m__1__wh__ws */
-    -REAL(0.21980253241228603),      /* r1_w8_w1_m__1__wh__ws */
-    REAL(7.493267767240382e-05),     /* r1_w8_w2_m__1__wh__ws */
-    REAL(0.0005495063029309605),     /* r1_w8_Fx__1 */
-    REAL(1.873316941810094e-07),     /* r1_w8_w1_Fx__1 */
-    REAL(0.00016347812512196075),    /* r1_w9_m__1__me__we */
-    REAL(5.5731179018850293e-08),    /* r1_w9_w1_m__1__me__we */
-    REAL(0.00016485189087928813),    /* r1_w10_m__1__wh__ws */
-    REAL(5.619950825430282e-08),     /* r1_w10_w1_m__1__wh__ws */
+    REAL(6.208582901496288e-05),     /* r1_w5_m__1__me__we */
+    REAL(1.4608430356461866e-06),    /* r1_w5_w1_m__1__me__we */
+    REAL(6.260755867055079e-05),     /* r1_w5_m__1__wh__ws */
+    REAL(0.4173837244703391),        /* r1_w5_w1_m__1__wh__ws */
+    REAL(0.0010434593111758466),     /* r1_w5_Fx__1 */
+    REAL(0.0003104291450748144),     /* r1_w6_m__1__me__we */
+    REAL(0.00031303779335275394),    /* r1_w7_m__1__wh__ws */
+    REAL(2.483433160598515e-05),     /* r1_w8_m__1__me__we */
+    -REAL(5.928034636696059e-07),    /* r1_w8_w1_m__1__me__we */
+    REAL(1.992058684972074e-10),     /* r1_w8_w2_m__1__me__we */
+    REAL(2.5043023468220318e-05),    /* r1_w8_m__1__wh__ws */
+    -REAL(0.16695349832553),         /* r1_w8_w1_m__1__wh__ws */
+    REAL(5.691596242777355e-05),     /* r1_w8_w2_m__1__wh__ws */
+    REAL(0.00041738372447033866),    /* r1_w8_Fx__1 */
+    REAL(1.4228990606943374e-07),    /* r1_w8_w1_Fx__1 */
+    REAL(0.00012417165802992576),    /* r1_w9_m__1__me__we */
+    REAL(4.2331247055656536e-08),    /* r1_w9_w1_m__1__me__we */
+    REAL(0.00012521511734110157),    /* r1_w10_m__1__wh__ws */
+    REAL(4.2686971820830126e-08),    /* r1_w10_w1_m__1__wh__ws */
     REAL(0.05014245014245015),       /* r3_w1_Fx__2 */
     REAL(0.0030085470085470085),     /* r3_w1_m__2__wh__ws */
     REAL(20.056980056980077),        /* r3_w1_w1_m__2__wh__ws */
@@ -848,25 +848,25 @@ const khepera_threshold_coefficients khepera_threshold_nominal_coefficients = {
     REAL(2.0341880341880358e-06),    /* r3_w3_w1_m__2__me__we */
     REAL(0.006017094017094017),      /* r3_w4_m__2__wh__ws */
     REAL(2.051282051282053e-06),     /* r3_w4_w1_m__2__wh__ws */
-    REAL(8.173906256098037e-05),     /* r3_w5_m__2__me__we */
-    REAL(1.9232720602583634e-06),    /* r3_w5_w1_m__2__me__we */
-    REAL(8.242594543964407e-05),     /* r3_w5_m__2__wh__ws */
-    REAL(0.549506302930961),         /* r3_w5_w1_m__2__wh__ws */
-    REAL(0.0013737657573274012),     /* r3_w5_Fx__2 */
-    REAL(0.00040869531280490187),    /* r3_w6_m__2__me__we */
-    REAL(0.0004121297271982203),     /* r3_w7_m__2__wh__ws */
-    REAL(3.269562502439215e-05),     /* r3_w8_m__2__me__we */
-    -REAL(7.804550599071153e-07),    /* r3_w8_w1_m__2__me__we */
-    REAL(2.622643718534134e-10),     /* r3_w8_w2_m__2__me__we */
-    REAL(3.2970378175857625e-05),    /* r3_w8_m__2__wh__ws */
-    -REAL(0.21980253241228603),      /* r3_w8_w1_m__2__wh__ws */
-    REAL(7.493267767240382e-05),     /* r3_w8_w2_m__2__wh__ws */
-    REAL(0.0005495063029309605),     /* r3_w8_Fx__2 */
-    REAL(1.873316941810094e-07),     /* r3_w8_w1_Fx__2 */
-    REAL(0.00016347812512196075),    /* r3_w9_m__2__me__we */
-    REAL(5.5731179018850293e-08),    /* r3_w9_w1_m__2__me__we */
-    REAL(0.00016485189087928813),    /* r3_w10_m__2__wh__ws */
-    REAL(5.619950825430282e-08),     /* r3_w10_w1_m__2__wh__ws */
+    REAL(6.208582901496288e-05),     /* r3_w5_m__2__me__we */
+    REAL(1.4608430356461866e-06),    /* r3_w5_w1_m__2__me__we */
+    REAL(6.260755867055079e-05),     /* r3_w5_m__2__wh__ws */
+    REAL(0.4173837244703391),        /* r3_w5_w1_m__2__wh__ws */
+    REAL(0.0010434593111758466),     /* r3_w5_Fx__2 */
+    REAL(0.0003104291450748144),     /* r3_w6_m__2__me__we */
+    REAL(0.00031303779335275394),    /* r3_w7_m__2__wh__ws */
+    REAL(2.483433160598515e-05),     /* r3_w8_m__2__me__we */
+    -REAL(5.928034636696059e-07),    /* r3_w8_w1_m__2__me__we */
+    REAL(1.992058684972074e-10),     /* r3_w8_w2_m__2__me__we */
+    REAL(2.5043023468220318e-05),    /* r3_w8_m__2__wh__ws */
+    -REAL(0.16695349832553),         /* r3_w8_w1_m__2__wh__ws */
+    REAL(5.691596242777355e-05),     /* r3_w8_w2_m__2__wh__ws */
+    REAL(0.00041738372447033866),    /* r3_w8_Fx__2 */
+    REAL(1.4228990606943374e-07),    /* r3_w8_w1_Fx__2 */
+    REAL(0.00012417165802992576),    /* r3_w9_m__2__me__we */
+    REAL(4.2331247055656536e-08),    /* r3_w9_w1_m__2__me__we */
+    REAL(0.00012521511734110157),    /* r3_w10_m__2__wh__ws */
+    REAL(4.2686971820830126e-08),    /* r3_w10_w1_m__2__wh__ws */
     {562u, 562u, 562u, 562u, 346u},  /* samples until each is valid */
     562u                             /* the longest of these */
 };
@@ -932,19 +932,19 @@ static void bound_compute_r1_w5(khepera_threshold_coefficients *c, real Re_times
         real product, real product_2, real product_11, real product_12)
 {
     /* khepera.bg:17: r1_w5: factor of m[1].me.we */
-    c->r1_w5_m__1__me__we = Re_times_fe_over_k / REAL(730.0);
+    c->r1_w5_m__1__me__we = REAL(37.0) * Re_times_fe_over_k / REAL(35560.0);
 
     /* r1_w5: factor of m[1].me.we' */
-    c->r1_w5_w1_m__1__me__we = product_12 / REAL(730.0);
+    c->r1_w5_w1_m__1__me__we = REAL(37.0) * product_12 / REAL(35560.0);
 
     /* r1_w5: factor of m[1].wh.ws */
-    c->r1_w5_m__1__wh__ws = product / REAL(730.0);
+    c->r1_w5_m__1__wh__ws = REAL(37.0) * product / REAL(35560.0);
 
     /* r1_w5: factor of m[1].wh.ws' */
-    c->r1_w5_w1_m__1__wh__ws = product_11 / REAL(730.0);
+    c->r1_w5_w1_m__1__wh__ws = REAL(37.0) * product_11 / REAL(35560.0);
 
     /* r1_w5: factor of Fx[1] */
-    c->r1_w5_Fx__1 = product_2 / REAL(730.0);
+    c->r1_w5_Fx__1 = REAL(37.0) * product_2 / REAL(35560.0);
 }
 
 /* r1_w3 to r1_w6: coefficients */
@@ -967,7 +967,7 @@ static void bound_compute_r1_w3_to_r1_w6(khepera_threshold_coefficients *c, real
     bound_compute_r1_w5(c, Re_times_fe_over_k, product, product_2, product_11, product_12);
 
     /* khepera.bg:17: r1_w6: factor of m[1].me.we */
-    c->r1_w6_m__1__me__we = Re_times_fe_over_k / REAL(146.0);
+    c->r1_w6_m__1__me__we = REAL(37.0) * Re_times_fe_over_k / REAL(7112.0);
 }
 
 /* r1_w8: coefficients */
@@ -976,38 +976,38 @@ static void bound_compute_r1_w8(khepera_threshold_coefficients *c, const khepera
         real product_6, real product_7)
 {
     /* khepera.bg:17: r1_w8: factor of m[1].me.we */
-    c->r1_w8_m__1__me__we = Re_times_fe_over_k / REAL(1825.0);
+    c->r1_w8_m__1__me__we = REAL(37.0) * Re_times_fe_over_k / REAL(88900.0);
 
     /* r1_w8: factor of m[1].me.we' */
-    c->r1_w8_w1_m__1__me__we = p->m__1__el__k * p->m__1__el__k * w
+    c->r1_w8_w1_m__1__me__we = REAL(37.0) * p->m__1__el__k * p->m__1__el__k * w
             * (-REAL(2.0) * p->m__1__el__L * p->m__1__me__fe / p->m__1__el__k / p->m__1__el__k
                 / p->m__1__el__k
             - REAL(2.0) * p->m__1__el__Re * p->m__1__me__Je / p->m__1__el__k / p->m__1__el__k
                 / p->m__1__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r1_w8: factor of m[1].me.we'' */
-    c->r1_w8_w2_m__1__me__we = product_5 / REAL(1825.0);
+    c->r1_w8_w2_m__1__me__we = REAL(37.0) * product_5 / REAL(88900.0);
 
     /* r1_w8: factor of m[1].wh.ws */
-    c->r1_w8_m__1__wh__ws = product / REAL(1825.0);
+    c->r1_w8_m__1__wh__ws = REAL(37.0) * product / REAL(88900.0);
 
     /* r1_w8: factor of m[1].wh.ws' */
-    c->r1_w8_w1_m__1__wh__ws = p->m__1__el__k * p->m__1__el__k * w
+    c->r1_w8_w1_m__1__wh__ws = REAL(37.0) * p->m__1__el__k * p->m__1__el__k * w
             * (-REAL(2.0) * p->m__1__el__L * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k
                 / p->m__1__el__k / p->m__1__el__k
             - REAL(2.0) * p->m__1__el__Re * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k
                 / p->m__1__el__k / p->m__1__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r1_w8: factor of m[1].wh.ws'' */
-    c->r1_w8_w2_m__1__wh__ws = product_6 / REAL(1825.0);
+    c->r1_w8_w2_m__1__wh__ws = REAL(37.0) * product_6 / REAL(88900.0);
 
     /* r1_w8: factor of Fx[1] */
-    c->r1_w8_Fx__1 = product_2 / REAL(1825.0);
+    c->r1_w8_Fx__1 = REAL(37.0) * product_2 / REAL(88900.0);
 
     /* r1_w8: factor of Fx[1]' */
-    c->r1_w8_w1_Fx__1 = product_7 / REAL(1825.0);
+    c->r1_w8_w1_Fx__1 = REAL(37.0) * product_7 / REAL(88900.0);
 }
 
 /* r1: coefficients */
@@ -1050,22 +1050,22 @@ static void bound_compute_r1(khepera_threshold_coefficients *c, const khepera_pa
             product_13, product_14);
 
     /* khepera.bg:17: r1_w7: factor of m[1].wh.ws */
-    c->r1_w7_m__1__wh__ws = product / REAL(146.0);
+    c->r1_w7_m__1__wh__ws = REAL(37.0) * product / REAL(7112.0);
 
     bound_compute_r1_w8(c, p, w, Re_times_fe_over_k, product, product_2, product_5, product_6,
             product_7);
 
     /* khepera.bg:17: r1_w9: factor of m[1].me.we */
-    c->r1_w9_m__1__me__we = Re_times_fe_over_k / REAL(365.0);
+    c->r1_w9_m__1__me__we = REAL(37.0) * Re_times_fe_over_k / REAL(17780.0);
 
     /* r1_w9: factor of m[1].me.we' */
-    c->r1_w9_w1_m__1__me__we = product_13 / REAL(365.0);
+    c->r1_w9_w1_m__1__me__we = REAL(37.0) * product_13 / REAL(17780.0);
 
     /* r1_w10: factor of m[1].wh.ws */
-    c->r1_w10_m__1__wh__ws = product / REAL(365.0);
+    c->r1_w10_m__1__wh__ws = REAL(37.0) * product / REAL(17780.0);
 
     /* r1_w10: factor of m[1].wh.ws' */
-    c->r1_w10_w1_m__1__wh__ws = product_14 / REAL(365.0);
+    c->r1_w10_w1_m__1__wh__ws = REAL(37.0) * product_14 / REAL(17780.0);
 }
 
 /* filter: coefficients */
@@ -1148,19 +1148,19 @@ static void bound_compute_r3_w5(khepera_threshold_coefficients *c, real Re_times
         real product_3, real product_4, real product_15, real product_16)
 {
     /* khepera.bg:17: r3_w5: factor of m[2].me.we */
-    c->r3_w5_m__2__me__we = Re_times_fe_over_k_2 / REAL(730.0);
+    c->r3_w5_m__2__me__we = REAL(37.0) * Re_times_fe_over_k_2 / REAL(35560.0);
 
     /* r3_w5: factor of m[2].me.we' */
-    c->r3_w5_w1_m__2__me__we = product_16 / REAL(730.0);
+    c->r3_w5_w1_m__2__me__we = REAL(37.0) * product_16 / REAL(35560.0);
 
     /* r3_w5: factor of m[2].wh.ws */
-    c->r3_w5_m__2__wh__ws = product_3 / REAL(730.0);
+    c->r3_w5_m__2__wh__ws = REAL(37.0) * product_3 / REAL(35560.0);
 
     /* r3_w5: factor of m[2].wh.ws' */
-    c->r3_w5_w1_m__2__wh__ws = product_15 / REAL(730.0);
+    c->r3_w5_w1_m__2__wh__ws = REAL(37.0) * product_15 / REAL(35560.0);
 
     /* r3_w5: factor of Fx[2] */
-    c->r3_w5_Fx__2 = product_4 / REAL(730.0);
+    c->r3_w5_Fx__2 = REAL(37.0) * product_4 / REAL(35560.0);
 }
 
 /* r3_w3 to r3_w6: coefficients */
@@ -1183,7 +1183,7 @@ static void bound_compute_r3_w3_to_r3_w6(khepera_threshold_coefficients *c,
     bound_compute_r3_w5(c, Re_times_fe_over_k_2, product_3, product_4, product_15, product_16);
 
     /* khepera.bg:17: r3_w6: factor of m[2].me.we */
-    c->r3_w6_m__2__me__we = Re_times_fe_over_k_2 / REAL(146.0);
+    c->r3_w6_m__2__me__we = REAL(37.0) * Re_times_fe_over_k_2 / REAL(7112.0);
 }
 
 /* r3_w8: coefficients */
@@ -1192,38 +1192,38 @@ static void bound_compute_r3_w8(khepera_threshold_coefficients *c, const khepera
         real product_9, real product_10)
 {
     /* khepera.bg:17: r3_w8: factor of m[2].me.we */
-    c->r3_w8_m__2__me__we = Re_times_fe_over_k_2 / REAL(1825.0);
+    c->r3_w8_m__2__me__we = REAL(37.0) * Re_times_fe_over_k_2 / REAL(88900.0);
 
     /* r3_w8: factor of m[2].me.we' */
-    c->r3_w8_w1_m__2__me__we = p->m__2__el__k * p->m__2__el__k * w
+    c->r3_w8_w1_m__2__me__we = REAL(37.0) * p->m__2__el__k * p->m__2__el__k * w
             * (-REAL(2.0) * p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k
             - REAL(2.0) * p->m__2__el__Re * p->m__2__me__Je / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r3_w8: factor of m[2].me.we'' */
-    c->r3_w8_w2_m__2__me__we = product_8 / REAL(1825.0);
+    c->r3_w8_w2_m__2__me__we = REAL(37.0) * product_8 / REAL(88900.0);
 
     /* r3_w8: factor of m[2].wh.ws */
-    c->r3_w8_m__2__wh__ws = product_3 / REAL(1825.0);
+    c->r3_w8_m__2__wh__ws = REAL(37.0) * product_3 / REAL(88900.0);
 
     /* r3_w8: factor of m[2].wh.ws' */
-    c->r3_w8_w1_m__2__wh__ws = p->m__2__el__k * p->m__2__el__k * w
+    c->r3_w8_w1_m__2__wh__ws = REAL(37.0) * p->m__2__el__k * p->m__2__el__k * w
             * (-REAL(2.0) * p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k
                 / p->m__2__el__k / p->m__2__el__k
             - REAL(2.0) * p->m__2__el__Re * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k
                 / p->m__2__el__k / p->m__2__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r3_w8: factor of m[2].wh.ws'' */
-    c->r3_w8_w2_m__2__wh__ws = product_9 / REAL(1825.0);
+    c->r3_w8_w2_m__2__wh__ws = REAL(37.0) * product_9 / REAL(88900.0);
 
     /* r3_w8: factor of Fx[2] */
-    c->r3_w8_Fx__2 = product_4 / REAL(1825.0);
+    c->r3_w8_Fx__2 = REAL(37.0) * product_4 / REAL(88900.0);
 
     /* r3_w8: factor of Fx[2]' */
-    c->r3_w8_w1_Fx__2 = product_10 / REAL(1825.0);
+    c->r3_w8_w1_Fx__2 = REAL(37.0) * product_10 / REAL(88900.0);
 }
 
 /* r3: coefficients */
@@ -1266,22 +1266,22 @@ static void bound_compute_r3(khepera_threshold_coefficients *c, const khepera_pa
             product_16, product_17, product_18);
 
     /* khepera.bg:17: r3_w7: factor of m[2].wh.ws */
-    c->r3_w7_m__2__wh__ws = product_3 / REAL(146.0);
+    c->r3_w7_m__2__wh__ws = REAL(37.0) * product_3 / REAL(7112.0);
 
     bound_compute_r3_w8(c, p, w, Re_times_fe_over_k_2, product_3, product_4, product_8, product_9,
             product_10);
 
     /* khepera.bg:17: r3_w9: factor of m[2].me.we */
-    c->r3_w9_m__2__me__we = Re_times_fe_over_k_2 / REAL(365.0);
+    c->r3_w9_m__2__me__we = REAL(37.0) * Re_times_fe_over_k_2 / REAL(17780.0);
 
     /* r3_w9: factor of m[2].me.we' */
-    c->r3_w9_w1_m__2__me__we = product_17 / REAL(365.0);
+    c->r3_w9_w1_m__2__me__we = REAL(37.0) * product_17 / REAL(17780.0);
 
     /* r3_w10: factor of m[2].wh.ws */
-    c->r3_w10_m__2__wh__ws = product_3 / REAL(365.0);
+    c->r3_w10_m__2__wh__ws = REAL(37.0) * product_3 / REAL(17780.0);
 
     /* r3_w10: factor of m[2].wh.ws' */
-    c->r3_w10_w1_m__2__wh__ws = product_18 / REAL(365.0);
+    c->r3_w10_w1_m__2__wh__ws = REAL(37.0) * product_18 / REAL(17780.0);
 }
 
 /* The coefficients, from the parameters. */

@@ -1160,75 +1160,75 @@ class Thresholds:
         c.r1_w4_w1_m__1__wh__ws = product_14 / 10.0
 
         # r1_w5: factor of m[1].me.we
-        c.r1_w5_m__1__me__we = Re_times_fe_over_k / 730.0
+        c.r1_w5_m__1__me__we = 37.0 * Re_times_fe_over_k / 35560.0
 
         # r1_w5: factor of m[1].me.we'
-        c.r1_w5_w1_m__1__me__we = product_12 / 730.0
+        c.r1_w5_w1_m__1__me__we = 37.0 * product_12 / 35560.0
 
         # r1_w5: factor of m[1].wh.ws
-        c.r1_w5_m__1__wh__ws = product / 730.0
+        c.r1_w5_m__1__wh__ws = 37.0 * product / 35560.0
 
         # r1_w5: factor of m[1].wh.ws'
-        c.r1_w5_w1_m__1__wh__ws = product_11 / 730.0
+        c.r1_w5_w1_m__1__wh__ws = 37.0 * product_11 / 35560.0
 
         # r1_w5: factor of Fx[1]
-        c.r1_w5_Fx__1 = product_2 / 730.0
+        c.r1_w5_Fx__1 = 37.0 * product_2 / 35560.0
 
         # r1_w6: factor of m[1].me.we
-        c.r1_w6_m__1__me__we = Re_times_fe_over_k / 146.0
+        c.r1_w6_m__1__me__we = 37.0 * Re_times_fe_over_k / 7112.0
 
         # r1_w7: factor of m[1].wh.ws
-        c.r1_w7_m__1__wh__ws = product / 146.0
+        c.r1_w7_m__1__wh__ws = 37.0 * product / 7112.0
 
         # r1_w8: factor of m[1].me.we
-        c.r1_w8_m__1__me__we = Re_times_fe_over_k / 1825.0
+        c.r1_w8_m__1__me__we = 37.0 * Re_times_fe_over_k / 88900.0
 
         # r1_w8: factor of m[1].me.we'
         c.r1_w8_w1_m__1__me__we = (
-            p.m__1__el__k * p.m__1__el__k * w
+            37.0 * p.m__1__el__k * p.m__1__el__k * w
                 * (-2.0 * p.m__1__el__L * p.m__1__me__fe / p.m__1__el__k / p.m__1__el__k
                     / p.m__1__el__k
                 - 2.0 * p.m__1__el__Re * p.m__1__me__Je / p.m__1__el__k / p.m__1__el__k
                     / p.m__1__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r1_w8: factor of m[1].me.we''
-        c.r1_w8_w2_m__1__me__we = product_5 / 1825.0
+        c.r1_w8_w2_m__1__me__we = 37.0 * product_5 / 88900.0
 
         # r1_w8: factor of m[1].wh.ws
-        c.r1_w8_m__1__wh__ws = product / 1825.0
+        c.r1_w8_m__1__wh__ws = 37.0 * product / 88900.0
 
         # r1_w8: factor of m[1].wh.ws'
         c.r1_w8_w1_m__1__wh__ws = (
-            p.m__1__el__k * p.m__1__el__k * w
+            37.0 * p.m__1__el__k * p.m__1__el__k * w
                 * (-2.0 * p.m__1__el__L * p.m__1__wh__fs / p.m__1__ge__N / p.m__1__el__k
                     / p.m__1__el__k / p.m__1__el__k
                 - 2.0 * p.m__1__el__Re * p.m__1__wh__Js / p.m__1__ge__N / p.m__1__el__k
                     / p.m__1__el__k / p.m__1__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r1_w8: factor of m[1].wh.ws''
-        c.r1_w8_w2_m__1__wh__ws = product_6 / 1825.0
+        c.r1_w8_w2_m__1__wh__ws = 37.0 * product_6 / 88900.0
 
         # r1_w8: factor of Fx[1]
-        c.r1_w8_Fx__1 = product_2 / 1825.0
+        c.r1_w8_Fx__1 = 37.0 * product_2 / 88900.0
 
         # r1_w8: factor of Fx[1]'
-        c.r1_w8_w1_Fx__1 = product_7 / 1825.0
+        c.r1_w8_w1_Fx__1 = 37.0 * product_7 / 88900.0
 
         # r1_w9: factor of m[1].me.we
-        c.r1_w9_m__1__me__we = Re_times_fe_over_k / 365.0
+        c.r1_w9_m__1__me__we = 37.0 * Re_times_fe_over_k / 17780.0
 
         # r1_w9: factor of m[1].me.we'
-        c.r1_w9_w1_m__1__me__we = product_13 / 365.0
+        c.r1_w9_w1_m__1__me__we = 37.0 * product_13 / 17780.0
 
         # r1_w10: factor of m[1].wh.ws
-        c.r1_w10_m__1__wh__ws = product / 365.0
+        c.r1_w10_m__1__wh__ws = 37.0 * product / 17780.0
 
         # r1_w10: factor of m[1].wh.ws'
-        c.r1_w10_w1_m__1__wh__ws = product_14 / 365.0
+        c.r1_w10_w1_m__1__wh__ws = 37.0 * product_14 / 17780.0
 
         # r3_w1: factor of Fx[2]
         c.r3_w1_Fx__2 = product_4 / 20.0
@@ -1293,75 +1293,75 @@ class Thresholds:
         c.r3_w4_w1_m__2__wh__ws = product_18 / 10.0
 
         # r3_w5: factor of m[2].me.we
-        c.r3_w5_m__2__me__we = Re_times_fe_over_k_2 / 730.0
+        c.r3_w5_m__2__me__we = 37.0 * Re_times_fe_over_k_2 / 35560.0
 
         # r3_w5: factor of m[2].me.we'
-        c.r3_w5_w1_m__2__me__we = product_16 / 730.0
+        c.r3_w5_w1_m__2__me__we = 37.0 * product_16 / 35560.0
 
         # r3_w5: factor of m[2].wh.ws
-        c.r3_w5_m__2__wh__ws = product_3 / 730.0
+        c.r3_w5_m__2__wh__ws = 37.0 * product_3 / 35560.0
 
         # r3_w5: factor of m[2].wh.ws'
-        c.r3_w5_w1_m__2__wh__ws = product_15 / 730.0
+        c.r3_w5_w1_m__2__wh__ws = 37.0 * product_15 / 35560.0
 
         # r3_w5: factor of Fx[2]
-        c.r3_w5_Fx__2 = product_4 / 730.0
+        c.r3_w5_Fx__2 = 37.0 * product_4 / 35560.0
 
         # r3_w6: factor of m[2].me.we
-        c.r3_w6_m__2__me__we = Re_times_fe_over_k_2 / 146.0
+        c.r3_w6_m__2__me__we = 37.0 * Re_times_fe_over_k_2 / 7112.0
 
         # r3_w7: factor of m[2].wh.ws
-        c.r3_w7_m__2__wh__ws = product_3 / 146.0
+        c.r3_w7_m__2__wh__ws = 37.0 * product_3 / 7112.0
 
         # r3_w8: factor of m[2].me.we
-        c.r3_w8_m__2__me__we = Re_times_fe_over_k_2 / 1825.0
+        c.r3_w8_m__2__me__we = 37.0 * Re_times_fe_over_k_2 / 88900.0
 
         # r3_w8: factor of m[2].me.we'
         c.r3_w8_w1_m__2__me__we = (
-            p.m__2__el__k * p.m__2__el__k * w
+            37.0 * p.m__2__el__k * p.m__2__el__k * w
                 * (-2.0 * p.m__2__el__L * p.m__2__me__fe / p.m__2__el__k / p.m__2__el__k
                     / p.m__2__el__k
                 - 2.0 * p.m__2__el__Re * p.m__2__me__Je / p.m__2__el__k / p.m__2__el__k
                     / p.m__2__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r3_w8: factor of m[2].me.we''
-        c.r3_w8_w2_m__2__me__we = product_8 / 1825.0
+        c.r3_w8_w2_m__2__me__we = 37.0 * product_8 / 88900.0
 
         # r3_w8: factor of m[2].wh.ws
-        c.r3_w8_m__2__wh__ws = product_3 / 1825.0
+        c.r3_w8_m__2__wh__ws = 37.0 * product_3 / 88900.0
 
         # r3_w8: factor of m[2].wh.ws'
         c.r3_w8_w1_m__2__wh__ws = (
-            p.m__2__el__k * p.m__2__el__k * w
+            37.0 * p.m__2__el__k * p.m__2__el__k * w
                 * (-2.0 * p.m__2__el__L * p.m__2__wh__fs / p.m__2__ge__N / p.m__2__el__k
                     / p.m__2__el__k / p.m__2__el__k
                 - 2.0 * p.m__2__el__Re * p.m__2__wh__Js / p.m__2__ge__N / p.m__2__el__k
                     / p.m__2__el__k / p.m__2__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r3_w8: factor of m[2].wh.ws''
-        c.r3_w8_w2_m__2__wh__ws = product_9 / 1825.0
+        c.r3_w8_w2_m__2__wh__ws = 37.0 * product_9 / 88900.0
 
         # r3_w8: factor of Fx[2]
-        c.r3_w8_Fx__2 = product_4 / 1825.0
+        c.r3_w8_Fx__2 = 37.0 * product_4 / 88900.0
 
         # r3_w8: factor of Fx[2]'
-        c.r3_w8_w1_Fx__2 = product_10 / 1825.0
+        c.r3_w8_w1_Fx__2 = 37.0 * product_10 / 88900.0
 
         # r3_w9: factor of m[2].me.we
-        c.r3_w9_m__2__me__we = Re_times_fe_over_k_2 / 365.0
+        c.r3_w9_m__2__me__we = 37.0 * Re_times_fe_over_k_2 / 17780.0
 
         # r3_w9: factor of m[2].me.we'
-        c.r3_w9_w1_m__2__me__we = product_17 / 365.0
+        c.r3_w9_w1_m__2__me__we = 37.0 * product_17 / 17780.0
 
         # r3_w10: factor of m[2].wh.ws
-        c.r3_w10_m__2__wh__ws = product_3 / 365.0
+        c.r3_w10_m__2__wh__ws = 37.0 * product_3 / 17780.0
 
         # r3_w10: factor of m[2].wh.ws'
-        c.r3_w10_w1_m__2__wh__ws = product_18 / 365.0
+        c.r3_w10_w1_m__2__wh__ws = 37.0 * product_18 / 17780.0
 
     # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
     def _run_r1(self, s: Samples, r: Residuals) -> None:

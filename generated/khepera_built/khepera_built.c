@@ -616,23 +616,23 @@ const khepera_built_threshold_coefficients khepera_built_threshold_nominal_coeff
     REAL(0.0320911680911681),       /* r1_w5_Fx__1 */
     REAL(1.0940170940170949e-05),   /* r1_w5_w1_Fx__1 */
     REAL(0.00010000000000000018),   /* bend3 */
-    REAL(3.5311584607359254e-06),   /* r1_w6_w1_m__1__motor */
-    REAL(1.4124633842943702e-06),   /* r1_w7_w1_m__1__motor */
-    REAL(4.815216082821719e-10),    /* r1_w7_w2_m__1__motor */
-    REAL(2.259941414870994e-06),    /* r1_w8_w2_m__1__motor */
-    REAL(9.039765659483978e-07),    /* r1_w9_w2_m__1__motor */
-    REAL(3.081738293005904e-10),    /* r1_w9_w3_m__1__motor */
-    REAL(1.6949560611532443e-05),   /* r1_w10_w1_m__1__motor */
-    REAL(6.779824244612977e-06),    /* r1_w11_w1_m__1__motor */
-    REAL(2.3113037197544255e-09),   /* r1_w11_w2_m__1__motor */
-    REAL(4.096143814453673e-06),    /* r1_w12_w1_m__1__motor */
-    REAL(4.237390152883115e-06),    /* r1_w12_w2_m__1__motor */
-    REAL(0.0022599414148709927),    /* r1_w12_Fx__1 */
-    REAL(1.6384575257814693e-06),   /* r1_w13_w1_m__1__motor */
-    -REAL(1.6955146262188534e-06),  /* r1_w13_w2_m__1__motor */
-    REAL(5.77825929938607e-10),     /* r1_w13_w3_m__1__motor */
-    REAL(0.000903976565948397),     /* r1_w13_Fx__1 */
-    REAL(3.0817382930059013e-07),   /* r1_w13_w1_Fx__1 */
+    REAL(2.6338740624454907e-06),   /* r1_w6_w1_m__1__motor */
+    REAL(1.0535496249781964e-06),   /* r1_w7_w1_m__1__motor */
+    REAL(3.591646448789308e-10),    /* r1_w7_w2_m__1__motor */
+    REAL(1.6856793999651158e-06),   /* r1_w8_w2_m__1__motor */
+    REAL(6.742717599860463e-07),    /* r1_w9_w2_m__1__motor */
+    REAL(2.2986537272251597e-10),   /* r1_w9_w3_m__1__motor */
+    REAL(1.2642595499738358e-05),   /* r1_w10_w1_m__1__motor */
+    REAL(5.057038199895343e-06),    /* r1_w11_w1_m__1__motor */
+    REAL(1.723990295418868e-09),    /* r1_w11_w2_m__1__motor */
+    REAL(3.0552939124367693e-06),   /* r1_w12_w1_m__1__motor */
+    REAL(3.160648874934592e-06),    /* r1_w12_w2_m__1__motor */
+    REAL(0.0016856793999651142),    /* r1_w12_Fx__1 */
+    REAL(1.2221175649747078e-06),   /* r1_w13_w1_m__1__motor */
+    -REAL(1.264676180961897e-06),   /* r1_w13_w2_m__1__motor */
+    REAL(4.309975738547175e-10),    /* r1_w13_w3_m__1__motor */
+    REAL(0.0006742717599860457),    /* r1_w13_Fx__1 */
+    REAL(2.2986537272251577e-07),   /* r1_w13_w1_Fx__1 */
     REAL(5.014245014245014e-05),    /* r2_w1_w1_m__2__motor */
     REAL(1.7094017094017106e-08),   /* r2_w1_w2_m__2__motor */
     REAL(3.2091168091168116e-05),   /* r2_w2_w2_m__2__motor */
@@ -647,23 +647,23 @@ const khepera_built_threshold_coefficients khepera_built_threshold_nominal_coeff
     REAL(2.051282051282055e-08),    /* r2_w5_w3_m__2__motor */
     REAL(0.0320911680911681),       /* r2_w5_Fx__2 */
     REAL(1.0940170940170949e-05),   /* r2_w5_w1_Fx__2 */
-    REAL(3.5311584607359254e-06),   /* r2_w6_w1_m__2__motor */
-    REAL(1.4124633842943702e-06),   /* r2_w7_w1_m__2__motor */
-    REAL(4.815216082821719e-10),    /* r2_w7_w2_m__2__motor */
-    REAL(2.259941414870994e-06),    /* r2_w8_w2_m__2__motor */
-    REAL(9.039765659483978e-07),    /* r2_w9_w2_m__2__motor */
-    REAL(3.081738293005904e-10),    /* r2_w9_w3_m__2__motor */
-    REAL(1.6949560611532443e-05),   /* r2_w10_w1_m__2__motor */
-    REAL(6.779824244612977e-06),    /* r2_w11_w1_m__2__motor */
-    REAL(2.3113037197544255e-09),   /* r2_w11_w2_m__2__motor */
-    REAL(4.096143814453673e-06),    /* r2_w12_w1_m__2__motor */
-    REAL(4.237390152883115e-06),    /* r2_w12_w2_m__2__motor */
-    REAL(0.0022599414148709927),    /* r2_w12_Fx__2 */
-    REAL(1.6384575257814693e-06),   /* r2_w13_w1_m__2__motor */
-    -REAL(1.6955146262188534e-06),  /* r2_w13_w2_m__2__motor */
-    REAL(5.77825929938607e-10),     /* r2_w13_w3_m__2__motor */
-    REAL(0.000903976565948397),     /* r2_w13_Fx__2 */
-    REAL(3.0817382930059013e-07),   /* r2_w13_w1_Fx__2 */
+    REAL(2.6338740624454907e-06),   /* r2_w6_w1_m__2__motor */
+    REAL(1.0535496249781964e-06),   /* r2_w7_w1_m__2__motor */
+    REAL(3.591646448789308e-10),    /* r2_w7_w2_m__2__motor */
+    REAL(1.6856793999651158e-06),   /* r2_w8_w2_m__2__motor */
+    REAL(6.742717599860463e-07),    /* r2_w9_w2_m__2__motor */
+    REAL(2.2986537272251597e-10),   /* r2_w9_w3_m__2__motor */
+    REAL(1.2642595499738358e-05),   /* r2_w10_w1_m__2__motor */
+    REAL(5.057038199895343e-06),    /* r2_w11_w1_m__2__motor */
+    REAL(1.723990295418868e-09),    /* r2_w11_w2_m__2__motor */
+    REAL(3.0552939124367693e-06),   /* r2_w12_w1_m__2__motor */
+    REAL(3.160648874934592e-06),    /* r2_w12_w2_m__2__motor */
+    REAL(0.0016856793999651142),    /* r2_w12_Fx__2 */
+    REAL(1.2221175649747078e-06),   /* r2_w13_w1_m__2__motor */
+    -REAL(1.264676180961897e-06),   /* r2_w13_w2_m__2__motor */
+    REAL(4.309975738547175e-10),    /* r2_w13_w3_m__2__motor */
+    REAL(0.0006742717599860457),    /* r2_w13_Fx__2 */
+    REAL(2.2986537272251577e-07),   /* r2_w13_w1_Fx__2 */
     {654u, 654u, 346u},             /* samples until each is valid */
     654u                            /* the longest of these */
 };
@@ -770,13 +770,13 @@ static void bound_compute_r1_w10_to_r1_w11(khepera_built_threshold_coefficients 
         real product_13)
 {
     /* khepera.bg:17: r1_w10: factor of m[1].motor' */
-    c->r1_w10_w1_m__1__motor = product_12 / REAL(142.0);
+    c->r1_w10_w1_m__1__motor = REAL(453.0) * product_12 / REAL(86240.0);
 
     /* r1_w11: factor of m[1].motor' */
-    c->r1_w11_w1_m__1__motor = product_12 / REAL(355.0);
+    c->r1_w11_w1_m__1__motor = REAL(453.0) * product_12 / REAL(215600.0);
 
     /* r1_w11: factor of m[1].motor'' */
-    c->r1_w11_w2_m__1__motor = product_13 / REAL(355.0);
+    c->r1_w11_w2_m__1__motor = REAL(453.0) * product_13 / REAL(215600.0);
 }
 
 /* r1_w12: coefficients */
@@ -784,13 +784,13 @@ static void bound_compute_r1_w12(khepera_built_threshold_coefficients *c, real p
         real product_2, real product_14)
 {
     /* khepera.bg:17: r1_w12: factor of m[1].motor' */
-    c->r1_w12_w1_m__1__motor = product / REAL(710.0);
+    c->r1_w12_w1_m__1__motor = REAL(453.0) * product / REAL(431200.0);
 
     /* r1_w12: factor of m[1].motor'' */
-    c->r1_w12_w2_m__1__motor = product_14 / REAL(710.0);
+    c->r1_w12_w2_m__1__motor = REAL(453.0) * product_14 / REAL(431200.0);
 
     /* r1_w12: factor of Fx[1] */
-    c->r1_w12_Fx__1 = product_2 / REAL(710.0);
+    c->r1_w12_Fx__1 = REAL(453.0) * product_2 / REAL(431200.0);
 }
 
 /* r1_w13: coefficients */
@@ -799,23 +799,23 @@ static void bound_compute_r1_w13(khepera_built_threshold_coefficients *c,
         real product_2, real product_5, real product_6)
 {
     /* khepera.bg:17: r1_w13: factor of m[1].motor' */
-    c->r1_w13_w1_m__1__motor = product / REAL(1775.0);
+    c->r1_w13_w1_m__1__motor = REAL(453.0) * product / REAL(1078000.0);
 
     /* r1_w13: factor of m[1].motor'' */
-    c->r1_w13_w2_m__1__motor = p->m__1__el__k * p->m__1__el__k * w
+    c->r1_w13_w2_m__1__motor = REAL(453.0) * p->m__1__el__k * p->m__1__el__k * w
             * (-REAL(2.0) * p->m__1__el__L * sum / p->m__1__el__k / p->m__1__el__k / p->m__1__el__k
             - REAL(2.0) * p->m__1__el__Re * sum_2 / p->m__1__el__k / p->m__1__el__k
                 / p->m__1__el__k)
-            / REAL(3550.0);
+            / REAL(2156000.0);
 
     /* r1_w13: factor of m[1].motor''' */
-    c->r1_w13_w3_m__1__motor = product_5 / REAL(1775.0);
+    c->r1_w13_w3_m__1__motor = REAL(453.0) * product_5 / REAL(1078000.0);
 
     /* r1_w13: factor of Fx[1] */
-    c->r1_w13_Fx__1 = product_2 / REAL(1775.0);
+    c->r1_w13_Fx__1 = REAL(453.0) * product_2 / REAL(1078000.0);
 
     /* r1_w13: factor of Fx[1]' */
-    c->r1_w13_w1_Fx__1 = product_6 / REAL(1775.0);
+    c->r1_w13_w1_Fx__1 = REAL(453.0) * product_6 / REAL(1078000.0);
 }
 
 /* r1: coefficients */
@@ -854,22 +854,22 @@ static void bound_compute_r1(khepera_built_threshold_coefficients *c,
     bound_compute_r1_w5(c, p, w, sum, sum_2, product_2, product_5, product_6);
 
     /* khepera.bg:17: r1_w6: factor of m[1].motor' */
-    c->r1_w6_w1_m__1__motor = fe_times_Re_over_k / REAL(142.0);
+    c->r1_w6_w1_m__1__motor = REAL(453.0) * fe_times_Re_over_k / REAL(86240.0);
 
     /* r1_w7: factor of m[1].motor' */
-    c->r1_w7_w1_m__1__motor = fe_times_Re_over_k / REAL(355.0);
+    c->r1_w7_w1_m__1__motor = REAL(453.0) * fe_times_Re_over_k / REAL(215600.0);
 
     /* r1_w7: factor of m[1].motor'' */
-    c->r1_w7_w2_m__1__motor = product_9 / REAL(355.0);
+    c->r1_w7_w2_m__1__motor = REAL(453.0) * product_9 / REAL(215600.0);
 
     /* r1_w8: factor of m[1].motor'' */
-    c->r1_w8_w2_m__1__motor = product_10 / REAL(710.0);
+    c->r1_w8_w2_m__1__motor = REAL(453.0) * product_10 / REAL(431200.0);
 
     /* r1_w9: factor of m[1].motor'' */
-    c->r1_w9_w2_m__1__motor = product_10 / REAL(1775.0);
+    c->r1_w9_w2_m__1__motor = REAL(453.0) * product_10 / REAL(1078000.0);
 
     /* r1_w9: factor of m[1].motor''' */
-    c->r1_w9_w3_m__1__motor = product_11 / REAL(1775.0);
+    c->r1_w9_w3_m__1__motor = REAL(453.0) * product_11 / REAL(1078000.0);
 
     bound_compute_r1_w10_to_r1_w11(c, product_12, product_13);
     bound_compute_r1_w12(c, product, product_2, product_14);
@@ -1002,13 +1002,13 @@ static void bound_compute_r2_w10_to_r2_w11(khepera_built_threshold_coefficients 
         real product_19)
 {
     /* khepera.bg:17: r2_w10: factor of m[2].motor' */
-    c->r2_w10_w1_m__2__motor = product_18 / REAL(142.0);
+    c->r2_w10_w1_m__2__motor = REAL(453.0) * product_18 / REAL(86240.0);
 
     /* r2_w11: factor of m[2].motor' */
-    c->r2_w11_w1_m__2__motor = product_18 / REAL(355.0);
+    c->r2_w11_w1_m__2__motor = REAL(453.0) * product_18 / REAL(215600.0);
 
     /* r2_w11: factor of m[2].motor'' */
-    c->r2_w11_w2_m__2__motor = product_19 / REAL(355.0);
+    c->r2_w11_w2_m__2__motor = REAL(453.0) * product_19 / REAL(215600.0);
 }
 
 /* r2_w12: coefficients */
@@ -1016,13 +1016,13 @@ static void bound_compute_r2_w12(khepera_built_threshold_coefficients *c, real p
         real product_4, real product_20)
 {
     /* khepera.bg:17: r2_w12: factor of m[2].motor' */
-    c->r2_w12_w1_m__2__motor = product_3 / REAL(710.0);
+    c->r2_w12_w1_m__2__motor = REAL(453.0) * product_3 / REAL(431200.0);
 
     /* r2_w12: factor of m[2].motor'' */
-    c->r2_w12_w2_m__2__motor = product_20 / REAL(710.0);
+    c->r2_w12_w2_m__2__motor = REAL(453.0) * product_20 / REAL(431200.0);
 
     /* r2_w12: factor of Fx[2] */
-    c->r2_w12_Fx__2 = product_4 / REAL(710.0);
+    c->r2_w12_Fx__2 = REAL(453.0) * product_4 / REAL(431200.0);
 }
 
 /* r2_w13: coefficients */
@@ -1031,24 +1031,24 @@ static void bound_compute_r2_w13(khepera_built_threshold_coefficients *c,
         real product_4, real product_7, real product_8)
 {
     /* khepera.bg:17: r2_w13: factor of m[2].motor' */
-    c->r2_w13_w1_m__2__motor = product_3 / REAL(1775.0);
+    c->r2_w13_w1_m__2__motor = REAL(453.0) * product_3 / REAL(1078000.0);
 
     /* r2_w13: factor of m[2].motor'' */
-    c->r2_w13_w2_m__2__motor = p->m__2__el__k * p->m__2__el__k * w
+    c->r2_w13_w2_m__2__motor = REAL(453.0) * p->m__2__el__k * p->m__2__el__k * w
             * (-REAL(2.0) * p->m__2__el__L * sum_3 / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k
             - REAL(2.0) * p->m__2__el__Re * sum_4 / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k)
-            / REAL(3550.0);
+            / REAL(2156000.0);
 
     /* r2_w13: factor of m[2].motor''' */
-    c->r2_w13_w3_m__2__motor = product_7 / REAL(1775.0);
+    c->r2_w13_w3_m__2__motor = REAL(453.0) * product_7 / REAL(1078000.0);
 
     /* r2_w13: factor of Fx[2] */
-    c->r2_w13_Fx__2 = product_4 / REAL(1775.0);
+    c->r2_w13_Fx__2 = REAL(453.0) * product_4 / REAL(1078000.0);
 
     /* r2_w13: factor of Fx[2]' */
-    c->r2_w13_w1_Fx__2 = product_8 / REAL(1775.0);
+    c->r2_w13_w1_Fx__2 = REAL(453.0) * product_8 / REAL(1078000.0);
 }
 
 /* r2: coefficients */
@@ -1087,22 +1087,22 @@ static void bound_compute_r2(khepera_built_threshold_coefficients *c,
     bound_compute_r2_w5(c, p, w, sum_3, sum_4, product_4, product_7, product_8);
 
     /* khepera.bg:17: r2_w6: factor of m[2].motor' */
-    c->r2_w6_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(142.0);
+    c->r2_w6_w1_m__2__motor = REAL(453.0) * fe_times_Re_over_k_2 / REAL(86240.0);
 
     /* r2_w7: factor of m[2].motor' */
-    c->r2_w7_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(355.0);
+    c->r2_w7_w1_m__2__motor = REAL(453.0) * fe_times_Re_over_k_2 / REAL(215600.0);
 
     /* r2_w7: factor of m[2].motor'' */
-    c->r2_w7_w2_m__2__motor = product_15 / REAL(355.0);
+    c->r2_w7_w2_m__2__motor = REAL(453.0) * product_15 / REAL(215600.0);
 
     /* r2_w8: factor of m[2].motor'' */
-    c->r2_w8_w2_m__2__motor = product_16 / REAL(710.0);
+    c->r2_w8_w2_m__2__motor = REAL(453.0) * product_16 / REAL(431200.0);
 
     /* r2_w9: factor of m[2].motor'' */
-    c->r2_w9_w2_m__2__motor = product_16 / REAL(1775.0);
+    c->r2_w9_w2_m__2__motor = REAL(453.0) * product_16 / REAL(1078000.0);
 
     /* r2_w9: factor of m[2].motor''' */
-    c->r2_w9_w3_m__2__motor = product_17 / REAL(1775.0);
+    c->r2_w9_w3_m__2__motor = REAL(453.0) * product_17 / REAL(1078000.0);
 
     bound_compute_r2_w10_to_r2_w11(c, product_18, product_19);
     bound_compute_r2_w12(c, product_3, product_4, product_20);

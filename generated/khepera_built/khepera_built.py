@@ -1026,60 +1026,60 @@ class Thresholds:
         c.bend3 = 0.25 * turn_2
 
         # khepera.bg:17: r1_w6: factor of m[1].motor'
-        c.r1_w6_w1_m__1__motor = fe_times_Re_over_k / 142.0
+        c.r1_w6_w1_m__1__motor = 453.0 * fe_times_Re_over_k / 86240.0
 
         # r1_w7: factor of m[1].motor'
-        c.r1_w7_w1_m__1__motor = fe_times_Re_over_k / 355.0
+        c.r1_w7_w1_m__1__motor = 453.0 * fe_times_Re_over_k / 215600.0
 
         # r1_w7: factor of m[1].motor''
-        c.r1_w7_w2_m__1__motor = product_9 / 355.0
+        c.r1_w7_w2_m__1__motor = 453.0 * product_9 / 215600.0
 
         # r1_w8: factor of m[1].motor''
-        c.r1_w8_w2_m__1__motor = product_10 / 710.0
+        c.r1_w8_w2_m__1__motor = 453.0 * product_10 / 431200.0
 
         # r1_w9: factor of m[1].motor''
-        c.r1_w9_w2_m__1__motor = product_10 / 1775.0
+        c.r1_w9_w2_m__1__motor = 453.0 * product_10 / 1078000.0
 
         # r1_w9: factor of m[1].motor'''
-        c.r1_w9_w3_m__1__motor = product_11 / 1775.0
+        c.r1_w9_w3_m__1__motor = 453.0 * product_11 / 1078000.0
 
         # r1_w10: factor of m[1].motor'
-        c.r1_w10_w1_m__1__motor = product_12 / 142.0
+        c.r1_w10_w1_m__1__motor = 453.0 * product_12 / 86240.0
 
         # r1_w11: factor of m[1].motor'
-        c.r1_w11_w1_m__1__motor = product_12 / 355.0
+        c.r1_w11_w1_m__1__motor = 453.0 * product_12 / 215600.0
 
         # r1_w11: factor of m[1].motor''
-        c.r1_w11_w2_m__1__motor = product_13 / 355.0
+        c.r1_w11_w2_m__1__motor = 453.0 * product_13 / 215600.0
 
         # r1_w12: factor of m[1].motor'
-        c.r1_w12_w1_m__1__motor = product / 710.0
+        c.r1_w12_w1_m__1__motor = 453.0 * product / 431200.0
 
         # r1_w12: factor of m[1].motor''
-        c.r1_w12_w2_m__1__motor = product_14 / 710.0
+        c.r1_w12_w2_m__1__motor = 453.0 * product_14 / 431200.0
 
         # r1_w12: factor of Fx[1]
-        c.r1_w12_Fx__1 = product_2 / 710.0
+        c.r1_w12_Fx__1 = 453.0 * product_2 / 431200.0
 
         # r1_w13: factor of m[1].motor'
-        c.r1_w13_w1_m__1__motor = product / 1775.0
+        c.r1_w13_w1_m__1__motor = 453.0 * product / 1078000.0
 
         # r1_w13: factor of m[1].motor''
         c.r1_w13_w2_m__1__motor = (
-            p.m__1__el__k * p.m__1__el__k * w
+            453.0 * p.m__1__el__k * p.m__1__el__k * w
                 * (-2.0 * p.m__1__el__L * sum_ / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
                 - 2.0 * p.m__1__el__Re * sum_2 / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k)
-                / 3550.0
+                / 2156000.0
         )
 
         # r1_w13: factor of m[1].motor'''
-        c.r1_w13_w3_m__1__motor = product_5 / 1775.0
+        c.r1_w13_w3_m__1__motor = 453.0 * product_5 / 1078000.0
 
         # r1_w13: factor of Fx[1]
-        c.r1_w13_Fx__1 = product_2 / 1775.0
+        c.r1_w13_Fx__1 = 453.0 * product_2 / 1078000.0
 
         # r1_w13: factor of Fx[1]'
-        c.r1_w13_w1_Fx__1 = product_6 / 1775.0
+        c.r1_w13_w1_Fx__1 = 453.0 * product_6 / 1078000.0
 
         # r2_w1: factor of m[2].motor'
         c.r2_w1_w1_m__2__motor = fe_times_Re_over_k_2 / 10.0
@@ -1129,60 +1129,60 @@ class Thresholds:
         c.r2_w5_w1_Fx__2 = product_8 / 50.0
 
         # r2_w6: factor of m[2].motor'
-        c.r2_w6_w1_m__2__motor = fe_times_Re_over_k_2 / 142.0
+        c.r2_w6_w1_m__2__motor = 453.0 * fe_times_Re_over_k_2 / 86240.0
 
         # r2_w7: factor of m[2].motor'
-        c.r2_w7_w1_m__2__motor = fe_times_Re_over_k_2 / 355.0
+        c.r2_w7_w1_m__2__motor = 453.0 * fe_times_Re_over_k_2 / 215600.0
 
         # r2_w7: factor of m[2].motor''
-        c.r2_w7_w2_m__2__motor = product_15 / 355.0
+        c.r2_w7_w2_m__2__motor = 453.0 * product_15 / 215600.0
 
         # r2_w8: factor of m[2].motor''
-        c.r2_w8_w2_m__2__motor = product_16 / 710.0
+        c.r2_w8_w2_m__2__motor = 453.0 * product_16 / 431200.0
 
         # r2_w9: factor of m[2].motor''
-        c.r2_w9_w2_m__2__motor = product_16 / 1775.0
+        c.r2_w9_w2_m__2__motor = 453.0 * product_16 / 1078000.0
 
         # r2_w9: factor of m[2].motor'''
-        c.r2_w9_w3_m__2__motor = product_17 / 1775.0
+        c.r2_w9_w3_m__2__motor = 453.0 * product_17 / 1078000.0
 
         # r2_w10: factor of m[2].motor'
-        c.r2_w10_w1_m__2__motor = product_18 / 142.0
+        c.r2_w10_w1_m__2__motor = 453.0 * product_18 / 86240.0
 
         # r2_w11: factor of m[2].motor'
-        c.r2_w11_w1_m__2__motor = product_18 / 355.0
+        c.r2_w11_w1_m__2__motor = 453.0 * product_18 / 215600.0
 
         # r2_w11: factor of m[2].motor''
-        c.r2_w11_w2_m__2__motor = product_19 / 355.0
+        c.r2_w11_w2_m__2__motor = 453.0 * product_19 / 215600.0
 
         # r2_w12: factor of m[2].motor'
-        c.r2_w12_w1_m__2__motor = product_3 / 710.0
+        c.r2_w12_w1_m__2__motor = 453.0 * product_3 / 431200.0
 
         # r2_w12: factor of m[2].motor''
-        c.r2_w12_w2_m__2__motor = product_20 / 710.0
+        c.r2_w12_w2_m__2__motor = 453.0 * product_20 / 431200.0
 
         # r2_w12: factor of Fx[2]
-        c.r2_w12_Fx__2 = product_4 / 710.0
+        c.r2_w12_Fx__2 = 453.0 * product_4 / 431200.0
 
         # r2_w13: factor of m[2].motor'
-        c.r2_w13_w1_m__2__motor = product_3 / 1775.0
+        c.r2_w13_w1_m__2__motor = 453.0 * product_3 / 1078000.0
 
         # r2_w13: factor of m[2].motor''
         c.r2_w13_w2_m__2__motor = (
-            p.m__2__el__k * p.m__2__el__k * w
+            453.0 * p.m__2__el__k * p.m__2__el__k * w
                 * (-2.0 * p.m__2__el__L * sum_3 / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
                 - 2.0 * p.m__2__el__Re * sum_4 / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k)
-                / 3550.0
+                / 2156000.0
         )
 
         # r2_w13: factor of m[2].motor'''
-        c.r2_w13_w3_m__2__motor = product_7 / 1775.0
+        c.r2_w13_w3_m__2__motor = 453.0 * product_7 / 1078000.0
 
         # r2_w13: factor of Fx[2]
-        c.r2_w13_Fx__2 = product_4 / 1775.0
+        c.r2_w13_Fx__2 = 453.0 * product_4 / 1078000.0
 
         # r2_w13: factor of Fx[2]'
-        c.r2_w13_w1_Fx__2 = product_8 / 1775.0
+        c.r2_w13_w1_Fx__2 = 453.0 * product_8 / 1078000.0
 
     # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
     def _run_r1(self, s: Samples, r: Residuals) -> None:

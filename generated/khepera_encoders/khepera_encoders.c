@@ -1083,26 +1083,26 @@ const khepera_encoders_threshold_coefficients khepera_encoders_threshold_nominal
     REAL(0.0320911680911681),        /* r1_w5_Fx__1 */
     REAL(1.0940170940170949e-05),    /* r1_w5_w1_Fx__1 */
     REAL(0.00010000000000000018),    /* bend3 */
-    REAL(3.5311584607359254e-06),    /* r1_w6_w1_m__1__motor */
-    REAL(1.4124633842943702e-06),    /* r1_w7_w1_m__1__motor */
-    REAL(4.815216082821719e-10),     /* r1_w7_w2_m__1__motor */
-    REAL(5.649853537177486e-05),     /* r1_w8_w2_m__1__wheel */
-    REAL(2.2599414148709943e-05),    /* r1_w9_w2_m__1__wheel */
-    REAL(7.704345732514761e-09),     /* r1_w9_w3_m__1__wheel */
-    REAL(0.00042373901528831105),    /* r1_w10_w1_m__1__wheel */
-    REAL(0.00016949560611532444),    /* r1_w11_w1_m__1__wheel */
-    REAL(5.778259299386065e-08),     /* r1_w11_w2_m__1__wheel */
-    REAL(7.062316921471851e-07),     /* r1_w12_w1_m__1__motor */
-    REAL(1.97744873801212e-06),      /* r1_w12_w2_m__1__motor */
-    REAL(8.474780305766222e-05),     /* r1_w12_w1_m__1__wheel */
-    REAL(0.0022599414148709927),     /* r1_w12_Fx__1 */
-    REAL(2.8249267685887405e-07),    /* r1_w13_w1_m__1__motor */
-    -REAL(7.910757995265045e-07),    /* r1_w13_w2_m__1__motor */
-    REAL(2.696521006380166e-10),     /* r1_w13_w3_m__1__motor */
-    REAL(3.3899121223064886e-05),    /* r1_w13_w1_m__1__wheel */
-    -REAL(2.2610970667308716e-05),   /* r1_w13_w2_m__1__wheel */
-    REAL(0.000903976565948397),      /* r1_w13_Fx__1 */
-    REAL(3.0817382930059013e-07),    /* r1_w13_w1_Fx__1 */
+    REAL(2.6338740624454907e-06),    /* r1_w6_w1_m__1__motor */
+    REAL(1.0535496249781964e-06),    /* r1_w7_w1_m__1__motor */
+    REAL(3.591646448789308e-10),     /* r1_w7_w2_m__1__motor */
+    REAL(4.214198499912789e-05),     /* r1_w8_w2_m__1__wheel */
+    REAL(1.685679399965116e-05),     /* r1_w9_w2_m__1__wheel */
+    REAL(5.746634318062899e-09),     /* r1_w9_w3_m__1__wheel */
+    REAL(0.00031606488749345895),    /* r1_w10_w1_m__1__wheel */
+    REAL(0.00012642595499738358),    /* r1_w11_w1_m__1__wheel */
+    REAL(4.30997573854717e-08),      /* r1_w11_w2_m__1__wheel */
+    REAL(5.267748124890982e-07),     /* r1_w12_w1_m__1__motor */
+    REAL(1.4749694749694763e-06),    /* r1_w12_w2_m__1__motor */
+    REAL(6.321297749869179e-05),     /* r1_w12_w1_m__1__wheel */
+    REAL(0.0016856793999651142),     /* r1_w12_Fx__1 */
+    REAL(2.1070992499563927e-07),    /* r1_w13_w1_m__1__motor */
+    -REAL(5.900596229167663e-07),    /* r1_w13_w2_m__1__motor */
+    REAL(2.0113220113220148e-10),    /* r1_w13_w3_m__1__motor */
+    REAL(2.5285190999476715e-05),    /* r1_w13_w1_m__1__wheel */
+    -REAL(1.6865413951128253e-05),   /* r1_w13_w2_m__1__wheel */
+    REAL(0.0006742717599860457),     /* r1_w13_Fx__1 */
+    REAL(2.2986537272251577e-07),    /* r1_w13_w1_Fx__1 */
     REAL(0.0),                       /* m__1__wheel__int__x0 */
     REAL(0.0),                       /* m__1__motor__int__x0 */
     REAL(25.0),                      /* scaled_one_over_tau0 */
@@ -1115,12 +1115,12 @@ const khepera_encoders_threshold_coefficients khepera_encoders_threshold_nominal
     -REAL(2.0000000000000003e-06),   /* r2_w2_product */
     REAL(1.6000000000000016e-07),    /* r2_w3_w2_m__1__wheel */
     REAL(1.2e-06),                   /* r2_w4_w1_m__1__wheel */
-    -REAL(1.1111111111111112e-05),   /* r2_w5_tanh */
-    -REAL(1.1111111111111112e-07),   /* r2_w5_product */
+    -REAL(1.0526315789473684e-05),   /* r2_w5_tanh */
+    -REAL(1.0526315789473685e-07),   /* r2_w5_product */
     REAL(500000.0),                  /* scaled_one_over_tau0_3 */
     REAL(12500000.0),                /* scaled_N_over_tau0_3 */
-    -REAL(5.555555555555556e-10),    /* r2_w6_product */
-    -REAL(1.1111111111111113e-09),   /* r2_w6_product_2 */
+    -REAL(5.263157894736843e-10),    /* r2_w6_product */
+    -REAL(1.0526315789473685e-09),   /* r2_w6_product_2 */
     REAL(5.014245014245014e-05),     /* r3_w1_w1_m__2__motor */
     REAL(1.7094017094017106e-08),    /* r3_w1_w2_m__2__motor */
     REAL(0.000802279202279203),      /* r3_w2_w2_m__2__wheel */
@@ -1139,26 +1139,26 @@ const khepera_encoders_threshold_coefficients khepera_encoders_threshold_nominal
     REAL(0.0008026894586894596),     /* r3_w5_w2_m__2__wheel */
     REAL(0.0320911680911681),        /* r3_w5_Fx__2 */
     REAL(1.0940170940170949e-05),    /* r3_w5_w1_Fx__2 */
-    REAL(3.5311584607359254e-06),    /* r3_w6_w1_m__2__motor */
-    REAL(1.4124633842943702e-06),    /* r3_w7_w1_m__2__motor */
-    REAL(4.815216082821719e-10),     /* r3_w7_w2_m__2__motor */
-    REAL(5.649853537177486e-05),     /* r3_w8_w2_m__2__wheel */
-    REAL(2.2599414148709943e-05),    /* r3_w9_w2_m__2__wheel */
-    REAL(7.704345732514761e-09),     /* r3_w9_w3_m__2__wheel */
-    REAL(0.00042373901528831105),    /* r3_w10_w1_m__2__wheel */
-    REAL(0.00016949560611532444),    /* r3_w11_w1_m__2__wheel */
-    REAL(5.778259299386065e-08),     /* r3_w11_w2_m__2__wheel */
-    REAL(7.062316921471851e-07),     /* r3_w12_w1_m__2__motor */
-    REAL(1.97744873801212e-06),      /* r3_w12_w2_m__2__motor */
-    REAL(8.474780305766222e-05),     /* r3_w12_w1_m__2__wheel */
-    REAL(0.0022599414148709927),     /* r3_w12_Fx__2 */
-    REAL(2.8249267685887405e-07),    /* r3_w13_w1_m__2__motor */
-    -REAL(7.910757995265045e-07),    /* r3_w13_w2_m__2__motor */
-    REAL(2.696521006380166e-10),     /* r3_w13_w3_m__2__motor */
-    REAL(3.3899121223064886e-05),    /* r3_w13_w1_m__2__wheel */
-    -REAL(2.2610970667308716e-05),   /* r3_w13_w2_m__2__wheel */
-    REAL(0.000903976565948397),      /* r3_w13_Fx__2 */
-    REAL(3.0817382930059013e-07),    /* r3_w13_w1_Fx__2 */
+    REAL(2.6338740624454907e-06),    /* r3_w6_w1_m__2__motor */
+    REAL(1.0535496249781964e-06),    /* r3_w7_w1_m__2__motor */
+    REAL(3.591646448789308e-10),     /* r3_w7_w2_m__2__motor */
+    REAL(4.214198499912789e-05),     /* r3_w8_w2_m__2__wheel */
+    REAL(1.685679399965116e-05),     /* r3_w9_w2_m__2__wheel */
+    REAL(5.746634318062899e-09),     /* r3_w9_w3_m__2__wheel */
+    REAL(0.00031606488749345895),    /* r3_w10_w1_m__2__wheel */
+    REAL(0.00012642595499738358),    /* r3_w11_w1_m__2__wheel */
+    REAL(4.30997573854717e-08),      /* r3_w11_w2_m__2__wheel */
+    REAL(5.267748124890982e-07),     /* r3_w12_w1_m__2__motor */
+    REAL(1.4749694749694763e-06),    /* r3_w12_w2_m__2__motor */
+    REAL(6.321297749869179e-05),     /* r3_w12_w1_m__2__wheel */
+    REAL(0.0016856793999651142),     /* r3_w12_Fx__2 */
+    REAL(2.1070992499563927e-07),    /* r3_w13_w1_m__2__motor */
+    -REAL(5.900596229167663e-07),    /* r3_w13_w2_m__2__motor */
+    REAL(2.0113220113220148e-10),    /* r3_w13_w3_m__2__motor */
+    REAL(2.5285190999476715e-05),    /* r3_w13_w1_m__2__wheel */
+    -REAL(1.6865413951128253e-05),   /* r3_w13_w2_m__2__wheel */
+    REAL(0.0006742717599860457),     /* r3_w13_Fx__2 */
+    REAL(2.2986537272251577e-07),    /* r3_w13_w1_Fx__2 */
     REAL(0.0),                       /* m__2__wheel__int__x0 */
     REAL(0.0),                       /* m__2__motor__int__x0 */
     REAL(25.0),                      /* scaled_one_over_tau0_4 */
@@ -1171,12 +1171,12 @@ const khepera_encoders_threshold_coefficients khepera_encoders_threshold_nominal
     -REAL(2.0000000000000003e-06),   /* r4_w2_product */
     REAL(1.6000000000000016e-07),    /* r4_w3_w2_m__2__wheel */
     REAL(1.2e-06),                   /* r4_w4_w1_m__2__wheel */
-    -REAL(1.1111111111111112e-05),   /* r4_w5_tanh */
-    -REAL(1.1111111111111112e-07),   /* r4_w5_product */
+    -REAL(1.0526315789473684e-05),   /* r4_w5_tanh */
+    -REAL(1.0526315789473685e-07),   /* r4_w5_product */
     REAL(500000.0),                  /* scaled_one_over_tau0_6 */
     REAL(12500000.0),                /* scaled_N_over_tau0_6 */
-    -REAL(5.555555555555556e-10),    /* r4_w6_product */
-    -REAL(1.1111111111111113e-09),   /* r4_w6_product_2 */
+    -REAL(5.263157894736843e-10),    /* r4_w6_product */
+    -REAL(1.0526315789473685e-09),   /* r4_w6_product_2 */
     REAL(0.08499999999999999),       /* r5_w1_load */
     REAL(1.5895000000000013e-10),    /* r5_w1_w1_load */
     REAL(7.947500000000007e-12),     /* r5_w2_w1_load */
@@ -1260,22 +1260,22 @@ static void bound_compute_r1_w8_to_r1_w11(khepera_encoders_threshold_coefficient
         real product_2, real product_8, real product_13, real product_14)
 {
     /* khepera.bg:17: r1_w8: factor of m[1].wheel'' */
-    c->r1_w8_w2_m__1__wheel = product_13 / REAL(710.0);
+    c->r1_w8_w2_m__1__wheel = REAL(453.0) * product_13 / REAL(431200.0);
 
     /* r1_w9: factor of m[1].wheel'' */
-    c->r1_w9_w2_m__1__wheel = product_13 / REAL(1775.0);
+    c->r1_w9_w2_m__1__wheel = REAL(453.0) * product_13 / REAL(1078000.0);
 
     /* r1_w9: factor of m[1].wheel''' */
-    c->r1_w9_w3_m__1__wheel = product_8 / REAL(1775.0);
+    c->r1_w9_w3_m__1__wheel = REAL(453.0) * product_8 / REAL(1078000.0);
 
     /* r1_w10: factor of m[1].wheel' */
-    c->r1_w10_w1_m__1__wheel = product_2 / REAL(142.0);
+    c->r1_w10_w1_m__1__wheel = REAL(453.0) * product_2 / REAL(86240.0);
 
     /* r1_w11: factor of m[1].wheel' */
-    c->r1_w11_w1_m__1__wheel = product_2 / REAL(355.0);
+    c->r1_w11_w1_m__1__wheel = REAL(453.0) * product_2 / REAL(215600.0);
 
     /* r1_w11: factor of m[1].wheel'' */
-    c->r1_w11_w2_m__1__wheel = product_14 / REAL(355.0);
+    c->r1_w11_w2_m__1__wheel = REAL(453.0) * product_14 / REAL(215600.0);
 }
 
 /* r1_w12: coefficients */
@@ -1283,16 +1283,16 @@ static void bound_compute_r1_w12(khepera_encoders_threshold_coefficients *c,
         real fe_times_Re_over_k, real product, real product_2, real product_15)
 {
     /* khepera.bg:17: r1_w12: factor of m[1].motor' */
-    c->r1_w12_w1_m__1__motor = fe_times_Re_over_k / REAL(710.0);
+    c->r1_w12_w1_m__1__motor = REAL(453.0) * fe_times_Re_over_k / REAL(431200.0);
 
     /* r1_w12: factor of m[1].motor'' */
-    c->r1_w12_w2_m__1__motor = product_15 / REAL(710.0);
+    c->r1_w12_w2_m__1__motor = REAL(453.0) * product_15 / REAL(431200.0);
 
     /* r1_w12: factor of m[1].wheel' */
-    c->r1_w12_w1_m__1__wheel = product_2 / REAL(710.0);
+    c->r1_w12_w1_m__1__wheel = REAL(453.0) * product_2 / REAL(431200.0);
 
     /* r1_w12: factor of Fx[1] */
-    c->r1_w12_Fx__1 = product / REAL(710.0);
+    c->r1_w12_Fx__1 = REAL(453.0) * product / REAL(431200.0);
 }
 
 /* r1_w13: coefficients */
@@ -1301,35 +1301,35 @@ static void bound_compute_r1_w13(khepera_encoders_threshold_coefficients *c,
         real product_2, real product_6, real product_7)
 {
     /* khepera.bg:17: r1_w13: factor of m[1].motor' */
-    c->r1_w13_w1_m__1__motor = fe_times_Re_over_k / REAL(1775.0);
+    c->r1_w13_w1_m__1__motor = REAL(453.0) * fe_times_Re_over_k / REAL(1078000.0);
 
     /* r1_w13: factor of m[1].motor'' */
-    c->r1_w13_w2_m__1__motor = p->m__1__el__k * p->m__1__el__k * w
+    c->r1_w13_w2_m__1__motor = REAL(453.0) * p->m__1__el__k * p->m__1__el__k * w
             * (-REAL(2.0) * p->m__1__fe * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k
                 / p->m__1__el__k
             - REAL(2.0) * p->m__1__Je * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
                 / p->m__1__el__k)
-            / REAL(3550.0);
+            / REAL(2156000.0);
 
     /* r1_w13: factor of m[1].motor''' */
-    c->r1_w13_w3_m__1__motor = product_6 / REAL(1775.0);
+    c->r1_w13_w3_m__1__motor = REAL(453.0) * product_6 / REAL(1078000.0);
 
     /* r1_w13: factor of m[1].wheel' */
-    c->r1_w13_w1_m__1__wheel = product_2 / REAL(1775.0);
+    c->r1_w13_w1_m__1__wheel = REAL(453.0) * product_2 / REAL(1078000.0);
 
     /* r1_w13: factor of m[1].wheel'' */
-    c->r1_w13_w2_m__1__wheel = p->m__1__el__k * p->m__1__el__k * w
+    c->r1_w13_w2_m__1__wheel = REAL(453.0) * p->m__1__el__k * p->m__1__el__k * w
             * (-REAL(2.0) * p->m__1__fs * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k
                 / p->m__1__el__k / p->m__1__ge__N
             - REAL(2.0) * p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
                 / p->m__1__el__k / p->m__1__ge__N)
-            / REAL(3550.0);
+            / REAL(2156000.0);
 
     /* r1_w13: factor of Fx[1] */
-    c->r1_w13_Fx__1 = product / REAL(1775.0);
+    c->r1_w13_Fx__1 = REAL(453.0) * product / REAL(1078000.0);
 
     /* r1_w13: factor of Fx[1]' */
-    c->r1_w13_w1_Fx__1 = product_7 / REAL(1775.0);
+    c->r1_w13_w1_Fx__1 = REAL(453.0) * product_7 / REAL(1078000.0);
 }
 
 /* r1: coefficients */
@@ -1377,13 +1377,13 @@ static void bound_compute_r1_2(khepera_encoders_threshold_coefficients *c,
     bound_compute_r1_w5(c, p, w, product, product_2, product_6, product_7);
 
     /* khepera.bg:17: r1_w6: factor of m[1].motor' */
-    c->r1_w6_w1_m__1__motor = fe_times_Re_over_k / REAL(142.0);
+    c->r1_w6_w1_m__1__motor = REAL(453.0) * fe_times_Re_over_k / REAL(86240.0);
 
     /* r1_w7: factor of m[1].motor' */
-    c->r1_w7_w1_m__1__motor = fe_times_Re_over_k / REAL(355.0);
+    c->r1_w7_w1_m__1__motor = REAL(453.0) * fe_times_Re_over_k / REAL(215600.0);
 
     /* r1_w7: factor of m[1].motor'' */
-    c->r1_w7_w2_m__1__motor = product_12 / REAL(355.0);
+    c->r1_w7_w2_m__1__motor = REAL(453.0) * product_12 / REAL(215600.0);
 
     bound_compute_r1_w8_to_r1_w11(c, product_2, product_8, product_13, product_14);
     bound_compute_r1_w12(c, fe_times_Re_over_k, product, product_2, product_15);
@@ -1503,12 +1503,12 @@ static void bound_compute_r2(khepera_encoders_threshold_coefficients *c,
 
     /* r2_w5: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
      * m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0)) */
-    c->r2_w5_tanh = K_times_tau0_times_A / REAL(360.0);
+    c->r2_w5_tanh = K_times_tau0_times_A / REAL(380.0);
 
     /* r2_w5: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) -
      * Int(D(m[1].motor))/(4*m[1].tau0^2))*(1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
      * m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0))^2) */
-    c->r2_w5_product = K_times_tau0_times_A_3 / REAL(360.0);
+    c->r2_w5_product = K_times_tau0_times_A_3 / REAL(380.0);
 
     /* m[1].K*m[1].tau0^3*m[1].A */
     const real K_times_tau0_times_A_4 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__tau0
@@ -1517,10 +1517,10 @@ static void bound_compute_r2(khepera_encoders_threshold_coefficients *c,
     /* r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
      * m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0))^2)*(Int(D(m[1].motor))/(2*m[1].tau0^3) -
      * m[1].ge.N*Int(D(m[1].wheel))/(2*m[1].tau0^3)) */
-    c->r2_w6_product = K_times_tau0_times_A_4 / REAL(720.0);
+    c->r2_w6_product = K_times_tau0_times_A_4 / REAL(760.0);
 
     /* r2_w6: factor of a product */
-    c->r2_w6_product_2 = K_times_tau0_times_A_4 / REAL(360.0);
+    c->r2_w6_product_2 = K_times_tau0_times_A_4 / REAL(380.0);
 }
 
 /* r3_w2 to r3_w3: coefficients */
@@ -1599,22 +1599,22 @@ static void bound_compute_r3_w8_to_r3_w11(khepera_encoders_threshold_coefficient
         real product_4, real product_11, real product_17, real product_18)
 {
     /* khepera.bg:17: r3_w8: factor of m[2].wheel'' */
-    c->r3_w8_w2_m__2__wheel = product_17 / REAL(710.0);
+    c->r3_w8_w2_m__2__wheel = REAL(453.0) * product_17 / REAL(431200.0);
 
     /* r3_w9: factor of m[2].wheel'' */
-    c->r3_w9_w2_m__2__wheel = product_17 / REAL(1775.0);
+    c->r3_w9_w2_m__2__wheel = REAL(453.0) * product_17 / REAL(1078000.0);
 
     /* r3_w9: factor of m[2].wheel''' */
-    c->r3_w9_w3_m__2__wheel = product_11 / REAL(1775.0);
+    c->r3_w9_w3_m__2__wheel = REAL(453.0) * product_11 / REAL(1078000.0);
 
     /* r3_w10: factor of m[2].wheel' */
-    c->r3_w10_w1_m__2__wheel = product_4 / REAL(142.0);
+    c->r3_w10_w1_m__2__wheel = REAL(453.0) * product_4 / REAL(86240.0);
 
     /* r3_w11: factor of m[2].wheel' */
-    c->r3_w11_w1_m__2__wheel = product_4 / REAL(355.0);
+    c->r3_w11_w1_m__2__wheel = REAL(453.0) * product_4 / REAL(215600.0);
 
     /* r3_w11: factor of m[2].wheel'' */
-    c->r3_w11_w2_m__2__wheel = product_18 / REAL(355.0);
+    c->r3_w11_w2_m__2__wheel = REAL(453.0) * product_18 / REAL(215600.0);
 }
 
 /* r3_w12: coefficients */
@@ -1622,16 +1622,16 @@ static void bound_compute_r3_w12(khepera_encoders_threshold_coefficients *c,
         real fe_times_Re_over_k_2, real product_3, real product_4, real product_19)
 {
     /* khepera.bg:17: r3_w12: factor of m[2].motor' */
-    c->r3_w12_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(710.0);
+    c->r3_w12_w1_m__2__motor = REAL(453.0) * fe_times_Re_over_k_2 / REAL(431200.0);
 
     /* r3_w12: factor of m[2].motor'' */
-    c->r3_w12_w2_m__2__motor = product_19 / REAL(710.0);
+    c->r3_w12_w2_m__2__motor = REAL(453.0) * product_19 / REAL(431200.0);
 
     /* r3_w12: factor of m[2].wheel' */
-    c->r3_w12_w1_m__2__wheel = product_4 / REAL(710.0);
+    c->r3_w12_w1_m__2__wheel = REAL(453.0) * product_4 / REAL(431200.0);
 
     /* r3_w12: factor of Fx[2] */
-    c->r3_w12_Fx__2 = product_3 / REAL(710.0);
+    c->r3_w12_Fx__2 = REAL(453.0) * product_3 / REAL(431200.0);
 }
 
 /* r3_w13: coefficients */
@@ -1640,35 +1640,35 @@ static void bound_compute_r3_w13(khepera_encoders_threshold_coefficients *c,
         real product_4, real product_9, real product_10)
 {
     /* khepera.bg:17: r3_w13: factor of m[2].motor' */
-    c->r3_w13_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(1775.0);
+    c->r3_w13_w1_m__2__motor = REAL(453.0) * fe_times_Re_over_k_2 / REAL(1078000.0);
 
     /* r3_w13: factor of m[2].motor'' */
-    c->r3_w13_w2_m__2__motor = p->m__2__el__k * p->m__2__el__k * w
+    c->r3_w13_w2_m__2__motor = REAL(453.0) * p->m__2__el__k * p->m__2__el__k * w
             * (-REAL(2.0) * p->m__2__fe * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k
             - REAL(2.0) * p->m__2__Je * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k)
-            / REAL(3550.0);
+            / REAL(2156000.0);
 
     /* r3_w13: factor of m[2].motor''' */
-    c->r3_w13_w3_m__2__motor = product_9 / REAL(1775.0);
+    c->r3_w13_w3_m__2__motor = REAL(453.0) * product_9 / REAL(1078000.0);
 
     /* r3_w13: factor of m[2].wheel' */
-    c->r3_w13_w1_m__2__wheel = product_4 / REAL(1775.0);
+    c->r3_w13_w1_m__2__wheel = REAL(453.0) * product_4 / REAL(1078000.0);
 
     /* r3_w13: factor of m[2].wheel'' */
-    c->r3_w13_w2_m__2__wheel = p->m__2__el__k * p->m__2__el__k * w
+    c->r3_w13_w2_m__2__wheel = REAL(453.0) * p->m__2__el__k * p->m__2__el__k * w
             * (-REAL(2.0) * p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k / p->m__2__ge__N
             - REAL(2.0) * p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k / p->m__2__ge__N)
-            / REAL(3550.0);
+            / REAL(2156000.0);
 
     /* r3_w13: factor of Fx[2] */
-    c->r3_w13_Fx__2 = product_3 / REAL(1775.0);
+    c->r3_w13_Fx__2 = REAL(453.0) * product_3 / REAL(1078000.0);
 
     /* r3_w13: factor of Fx[2]' */
-    c->r3_w13_w1_Fx__2 = product_10 / REAL(1775.0);
+    c->r3_w13_w1_Fx__2 = REAL(453.0) * product_10 / REAL(1078000.0);
 }
 
 /* r3: coefficients */
@@ -1716,13 +1716,13 @@ static void bound_compute_r3(khepera_encoders_threshold_coefficients *c,
     bound_compute_r3_w5(c, p, w, product_3, product_4, product_9, product_10);
 
     /* khepera.bg:17: r3_w6: factor of m[2].motor' */
-    c->r3_w6_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(142.0);
+    c->r3_w6_w1_m__2__motor = REAL(453.0) * fe_times_Re_over_k_2 / REAL(86240.0);
 
     /* r3_w7: factor of m[2].motor' */
-    c->r3_w7_w1_m__2__motor = fe_times_Re_over_k_2 / REAL(355.0);
+    c->r3_w7_w1_m__2__motor = REAL(453.0) * fe_times_Re_over_k_2 / REAL(215600.0);
 
     /* r3_w7: factor of m[2].motor'' */
-    c->r3_w7_w2_m__2__motor = product_16 / REAL(355.0);
+    c->r3_w7_w2_m__2__motor = REAL(453.0) * product_16 / REAL(215600.0);
 
     bound_compute_r3_w8_to_r3_w11(c, product_4, product_11, product_17, product_18);
     bound_compute_r3_w12(c, fe_times_Re_over_k_2, product_3, product_4, product_19);
@@ -1763,12 +1763,12 @@ static void bound_compute_r4(khepera_encoders_threshold_coefficients *c,
 
     /* r4_w5: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
      * m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0)) */
-    c->r4_w5_tanh = K_times_tau0_times_A_2 / REAL(360.0);
+    c->r4_w5_tanh = K_times_tau0_times_A_2 / REAL(380.0);
 
     /* r4_w5: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) -
      * Int(D(m[2].motor))/(4*m[2].tau0^2))*(1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
      * m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0))^2) */
-    c->r4_w5_product = K_times_tau0_times_A_5 / REAL(360.0);
+    c->r4_w5_product = K_times_tau0_times_A_5 / REAL(380.0);
 
     /* m[2].K*m[2].tau0^3*m[2].A */
     const real K_times_tau0_times_A_6 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__tau0
@@ -1777,10 +1777,10 @@ static void bound_compute_r4(khepera_encoders_threshold_coefficients *c,
     /* r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
      * m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0))^2)*(Int(D(m[2].motor))/(2*m[2].tau0^3) -
      * m[2].ge.N*Int(D(m[2].wheel))/(2*m[2].tau0^3)) */
-    c->r4_w6_product = K_times_tau0_times_A_6 / REAL(720.0);
+    c->r4_w6_product = K_times_tau0_times_A_6 / REAL(760.0);
 
     /* r4_w6: factor of a product */
-    c->r4_w6_product_2 = K_times_tau0_times_A_6 / REAL(360.0);
+    c->r4_w6_product_2 = K_times_tau0_times_A_6 / REAL(380.0);
 }
 
 /* r5: coefficients */

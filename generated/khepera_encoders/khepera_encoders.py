@@ -1681,76 +1681,76 @@ class Thresholds:
         c.bend3 = 0.25 * turn_2
 
         # khepera.bg:17: r1_w6: factor of m[1].motor'
-        c.r1_w6_w1_m__1__motor = fe_times_Re_over_k / 142.0
+        c.r1_w6_w1_m__1__motor = 453.0 * fe_times_Re_over_k / 86240.0
 
         # r1_w7: factor of m[1].motor'
-        c.r1_w7_w1_m__1__motor = fe_times_Re_over_k / 355.0
+        c.r1_w7_w1_m__1__motor = 453.0 * fe_times_Re_over_k / 215600.0
 
         # r1_w7: factor of m[1].motor''
-        c.r1_w7_w2_m__1__motor = product_12 / 355.0
+        c.r1_w7_w2_m__1__motor = 453.0 * product_12 / 215600.0
 
         # r1_w8: factor of m[1].wheel''
-        c.r1_w8_w2_m__1__wheel = product_13 / 710.0
+        c.r1_w8_w2_m__1__wheel = 453.0 * product_13 / 431200.0
 
         # r1_w9: factor of m[1].wheel''
-        c.r1_w9_w2_m__1__wheel = product_13 / 1775.0
+        c.r1_w9_w2_m__1__wheel = 453.0 * product_13 / 1078000.0
 
         # r1_w9: factor of m[1].wheel'''
-        c.r1_w9_w3_m__1__wheel = product_8 / 1775.0
+        c.r1_w9_w3_m__1__wheel = 453.0 * product_8 / 1078000.0
 
         # r1_w10: factor of m[1].wheel'
-        c.r1_w10_w1_m__1__wheel = product_2 / 142.0
+        c.r1_w10_w1_m__1__wheel = 453.0 * product_2 / 86240.0
 
         # r1_w11: factor of m[1].wheel'
-        c.r1_w11_w1_m__1__wheel = product_2 / 355.0
+        c.r1_w11_w1_m__1__wheel = 453.0 * product_2 / 215600.0
 
         # r1_w11: factor of m[1].wheel''
-        c.r1_w11_w2_m__1__wheel = product_14 / 355.0
+        c.r1_w11_w2_m__1__wheel = 453.0 * product_14 / 215600.0
 
         # r1_w12: factor of m[1].motor'
-        c.r1_w12_w1_m__1__motor = fe_times_Re_over_k / 710.0
+        c.r1_w12_w1_m__1__motor = 453.0 * fe_times_Re_over_k / 431200.0
 
         # r1_w12: factor of m[1].motor''
-        c.r1_w12_w2_m__1__motor = product_15 / 710.0
+        c.r1_w12_w2_m__1__motor = 453.0 * product_15 / 431200.0
 
         # r1_w12: factor of m[1].wheel'
-        c.r1_w12_w1_m__1__wheel = product_2 / 710.0
+        c.r1_w12_w1_m__1__wheel = 453.0 * product_2 / 431200.0
 
         # r1_w12: factor of Fx[1]
-        c.r1_w12_Fx__1 = product / 710.0
+        c.r1_w12_Fx__1 = 453.0 * product / 431200.0
 
         # r1_w13: factor of m[1].motor'
-        c.r1_w13_w1_m__1__motor = fe_times_Re_over_k / 1775.0
+        c.r1_w13_w1_m__1__motor = 453.0 * fe_times_Re_over_k / 1078000.0
 
         # r1_w13: factor of m[1].motor''
         c.r1_w13_w2_m__1__motor = (
-            p.m__1__el__k * p.m__1__el__k * w
+            453.0 * p.m__1__el__k * p.m__1__el__k * w
                 * (-2.0 * p.m__1__fe * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
                 - 2.0 * p.m__1__Je * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k)
-                / 3550.0
+                / 2156000.0
         )
 
         # r1_w13: factor of m[1].motor'''
-        c.r1_w13_w3_m__1__motor = product_6 / 1775.0
+        c.r1_w13_w3_m__1__motor = 453.0 * product_6 / 1078000.0
 
         # r1_w13: factor of m[1].wheel'
-        c.r1_w13_w1_m__1__wheel = product_2 / 1775.0
+        c.r1_w13_w1_m__1__wheel = 453.0 * product_2 / 1078000.0
 
         # r1_w13: factor of m[1].wheel''
         c.r1_w13_w2_m__1__wheel = (
-            p.m__1__el__k * p.m__1__el__k * w
+            453.0 * p.m__1__el__k * p.m__1__el__k * w
                 * (-2.0 * p.m__1__fs * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
                     / p.m__1__ge__N
                 - 2.0 * p.m__1__Js * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
                     / p.m__1__ge__N)
-                / 3550.0
+                / 2156000.0
         )
 
         # r1_w13: factor of Fx[1]
-        c.r1_w13_Fx__1 = product / 1775.0
+        c.r1_w13_Fx__1 = 453.0 * product / 1078000.0
 
         # r1_w13: factor of Fx[1]'
-        c.r1_w13_w1_Fx__1 = product_7 / 1775.0
+        c.r1_w13_w1_Fx__1 = 453.0 * product_7 / 1078000.0
 
         # khepera_encoders.bg:31: m[1].wheel.int.x0
         c.m__1__wheel__int__x0 = 0.0
@@ -1793,12 +1793,12 @@ class Thresholds:
 
         # r2_w5: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
         # m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0))
-        c.r2_w5_tanh = K_times_tau0_times_A / 360.0
+        c.r2_w5_tanh = K_times_tau0_times_A / 380.0
 
         # r2_w5: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) -
         # Int(D(m[1].motor))/(4*m[1].tau0^2))*(1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
         # m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0))^2)
-        c.r2_w5_product = K_times_tau0_times_A_3 / 360.0
+        c.r2_w5_product = K_times_tau0_times_A_3 / 380.0
 
         # 1/(2*m[1].tau0^3)
         c.scaled_one_over_tau0_3 = 0.5 / p.m__1__tau0 / p.m__1__tau0 / p.m__1__tau0
@@ -1809,10 +1809,10 @@ class Thresholds:
         # r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
         # m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0))^2)*(Int(D(m[1].motor))/(2*m[1].tau0^3) -
         # m[1].ge.N*Int(D(m[1].wheel))/(2*m[1].tau0^3))
-        c.r2_w6_product = K_times_tau0_times_A_4 / 720.0
+        c.r2_w6_product = K_times_tau0_times_A_4 / 760.0
 
         # r2_w6: factor of a product
-        c.r2_w6_product_2 = K_times_tau0_times_A_4 / 360.0
+        c.r2_w6_product_2 = K_times_tau0_times_A_4 / 380.0
 
         # khepera.bg:17: r3_w1: factor of m[2].motor'
         c.r3_w1_w1_m__2__motor = fe_times_Re_over_k_2 / 10.0
@@ -1879,76 +1879,76 @@ class Thresholds:
         c.r3_w5_w1_Fx__2 = product_10 / 50.0
 
         # r3_w6: factor of m[2].motor'
-        c.r3_w6_w1_m__2__motor = fe_times_Re_over_k_2 / 142.0
+        c.r3_w6_w1_m__2__motor = 453.0 * fe_times_Re_over_k_2 / 86240.0
 
         # r3_w7: factor of m[2].motor'
-        c.r3_w7_w1_m__2__motor = fe_times_Re_over_k_2 / 355.0
+        c.r3_w7_w1_m__2__motor = 453.0 * fe_times_Re_over_k_2 / 215600.0
 
         # r3_w7: factor of m[2].motor''
-        c.r3_w7_w2_m__2__motor = product_16 / 355.0
+        c.r3_w7_w2_m__2__motor = 453.0 * product_16 / 215600.0
 
         # r3_w8: factor of m[2].wheel''
-        c.r3_w8_w2_m__2__wheel = product_17 / 710.0
+        c.r3_w8_w2_m__2__wheel = 453.0 * product_17 / 431200.0
 
         # r3_w9: factor of m[2].wheel''
-        c.r3_w9_w2_m__2__wheel = product_17 / 1775.0
+        c.r3_w9_w2_m__2__wheel = 453.0 * product_17 / 1078000.0
 
         # r3_w9: factor of m[2].wheel'''
-        c.r3_w9_w3_m__2__wheel = product_11 / 1775.0
+        c.r3_w9_w3_m__2__wheel = 453.0 * product_11 / 1078000.0
 
         # r3_w10: factor of m[2].wheel'
-        c.r3_w10_w1_m__2__wheel = product_4 / 142.0
+        c.r3_w10_w1_m__2__wheel = 453.0 * product_4 / 86240.0
 
         # r3_w11: factor of m[2].wheel'
-        c.r3_w11_w1_m__2__wheel = product_4 / 355.0
+        c.r3_w11_w1_m__2__wheel = 453.0 * product_4 / 215600.0
 
         # r3_w11: factor of m[2].wheel''
-        c.r3_w11_w2_m__2__wheel = product_18 / 355.0
+        c.r3_w11_w2_m__2__wheel = 453.0 * product_18 / 215600.0
 
         # r3_w12: factor of m[2].motor'
-        c.r3_w12_w1_m__2__motor = fe_times_Re_over_k_2 / 710.0
+        c.r3_w12_w1_m__2__motor = 453.0 * fe_times_Re_over_k_2 / 431200.0
 
         # r3_w12: factor of m[2].motor''
-        c.r3_w12_w2_m__2__motor = product_19 / 710.0
+        c.r3_w12_w2_m__2__motor = 453.0 * product_19 / 431200.0
 
         # r3_w12: factor of m[2].wheel'
-        c.r3_w12_w1_m__2__wheel = product_4 / 710.0
+        c.r3_w12_w1_m__2__wheel = 453.0 * product_4 / 431200.0
 
         # r3_w12: factor of Fx[2]
-        c.r3_w12_Fx__2 = product_3 / 710.0
+        c.r3_w12_Fx__2 = 453.0 * product_3 / 431200.0
 
         # r3_w13: factor of m[2].motor'
-        c.r3_w13_w1_m__2__motor = fe_times_Re_over_k_2 / 1775.0
+        c.r3_w13_w1_m__2__motor = 453.0 * fe_times_Re_over_k_2 / 1078000.0
 
         # r3_w13: factor of m[2].motor''
         c.r3_w13_w2_m__2__motor = (
-            p.m__2__el__k * p.m__2__el__k * w
+            453.0 * p.m__2__el__k * p.m__2__el__k * w
                 * (-2.0 * p.m__2__fe * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
                 - 2.0 * p.m__2__Je * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k)
-                / 3550.0
+                / 2156000.0
         )
 
         # r3_w13: factor of m[2].motor'''
-        c.r3_w13_w3_m__2__motor = product_9 / 1775.0
+        c.r3_w13_w3_m__2__motor = 453.0 * product_9 / 1078000.0
 
         # r3_w13: factor of m[2].wheel'
-        c.r3_w13_w1_m__2__wheel = product_4 / 1775.0
+        c.r3_w13_w1_m__2__wheel = 453.0 * product_4 / 1078000.0
 
         # r3_w13: factor of m[2].wheel''
         c.r3_w13_w2_m__2__wheel = (
-            p.m__2__el__k * p.m__2__el__k * w
+            453.0 * p.m__2__el__k * p.m__2__el__k * w
                 * (-2.0 * p.m__2__fs * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
                     / p.m__2__ge__N
                 - 2.0 * p.m__2__Js * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
                     / p.m__2__ge__N)
-                / 3550.0
+                / 2156000.0
         )
 
         # r3_w13: factor of Fx[2]
-        c.r3_w13_Fx__2 = product_3 / 1775.0
+        c.r3_w13_Fx__2 = 453.0 * product_3 / 1078000.0
 
         # r3_w13: factor of Fx[2]'
-        c.r3_w13_w1_Fx__2 = product_10 / 1775.0
+        c.r3_w13_w1_Fx__2 = 453.0 * product_10 / 1078000.0
 
         # khepera_encoders.bg:31: m[2].wheel.int.x0
         c.m__2__wheel__int__x0 = 0.0
@@ -1991,12 +1991,12 @@ class Thresholds:
 
         # r4_w5: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
         # m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0))
-        c.r4_w5_tanh = K_times_tau0_times_A_2 / 360.0
+        c.r4_w5_tanh = K_times_tau0_times_A_2 / 380.0
 
         # r4_w5: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) -
         # Int(D(m[2].motor))/(4*m[2].tau0^2))*(1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
         # m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0))^2)
-        c.r4_w5_product = K_times_tau0_times_A_5 / 360.0
+        c.r4_w5_product = K_times_tau0_times_A_5 / 380.0
 
         # 1/(2*m[2].tau0^3)
         c.scaled_one_over_tau0_6 = 0.5 / p.m__2__tau0 / p.m__2__tau0 / p.m__2__tau0
@@ -2007,10 +2007,10 @@ class Thresholds:
         # r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
         # m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0))^2)*(Int(D(m[2].motor))/(2*m[2].tau0^3) -
         # m[2].ge.N*Int(D(m[2].wheel))/(2*m[2].tau0^3))
-        c.r4_w6_product = K_times_tau0_times_A_6 / 720.0
+        c.r4_w6_product = K_times_tau0_times_A_6 / 760.0
 
         # r4_w6: factor of a product
-        c.r4_w6_product_2 = K_times_tau0_times_A_6 / 360.0
+        c.r4_w6_product_2 = K_times_tau0_times_A_6 / 380.0
 
         # khepera.bg:114: r5_w1: factor of load
         c.r5_w1_load = p.R_L / 10.0

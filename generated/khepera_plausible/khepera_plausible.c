@@ -860,25 +860,25 @@ const khepera_plausible_threshold_coefficients khepera_plausible_threshold_nomin
     REAL(6.666666666666679e-05),     /* bend2 */
     REAL(0.006017094017094017),      /* r1_w4_robot__m__1__wh__ws */
     REAL(2.051282051282053e-06),     /* r1_w4_w1_robot__m__1__wh__ws */
-    REAL(3.4344143933185027e-06),    /* r1_w5_robot__m__1__me__we */
-    REAL(1.3737657573274012e-06),    /* r1_w6_robot__m__1__me__we */
-    REAL(4.683292354525234e-10),     /* r1_w6_w1_robot__m__1__me__we */
-    REAL(6.868828786637006e-07),     /* r1_w7_robot__m__1__me__we */
-    REAL(1.9232720602583634e-06),    /* r1_w7_w1_robot__m__1__me__we */
-    REAL(8.242594543964407e-05),     /* r1_w7_robot__m__1__wh__ws */
-    REAL(5.49506302930961e-05),      /* r1_w7_w1_robot__m__1__wh__ws */
-    REAL(0.002198025211723842),      /* r1_w7_robot__Fx__1 */
-    REAL(0.0004121297271982203),     /* r1_w8_robot__m__1__wh__ws */
-    REAL(2.747531514654802e-07),     /* r1_w9_robot__m__1__me__we */
-    -REAL(7.694024899504359e-07),    /* r1_w9_w1_robot__m__1__me__we */
-    REAL(2.622643718534134e-10),     /* r1_w9_w2_robot__m__1__me__we */
-    REAL(3.2970378175857625e-05),    /* r1_w9_robot__m__1__wh__ws */
-    -REAL(2.1991492018889298e-05),   /* r1_w9_w1_robot__m__1__wh__ws */
-    REAL(7.493267767240383e-09),     /* r1_w9_w2_robot__m__1__wh__ws */
-    REAL(0.0008792100846895368),     /* r1_w9_robot__Fx__1 */
-    REAL(2.99730710689615e-07),      /* r1_w9_w1_robot__Fx__1 */
-    REAL(0.00016485189087928813),    /* r1_w10_robot__m__1__wh__ws */
-    REAL(5.619950825430282e-08),     /* r1_w10_w1_robot__m__1__wh__ws */
+    REAL(2.6086482779396166e-06),    /* r1_w5_robot__m__1__me__we */
+    REAL(1.0434593111758465e-06),    /* r1_w6_robot__m__1__me__we */
+    REAL(3.557247651735843e-10),     /* r1_w6_w1_robot__m__1__me__we */
+    REAL(5.217296555879233e-07),     /* r1_w7_robot__m__1__me__we */
+    REAL(1.4608430356461866e-06),    /* r1_w7_w1_robot__m__1__me__we */
+    REAL(6.260755867055079e-05),     /* r1_w7_robot__m__1__wh__ws */
+    REAL(4.17383724470339e-05),      /* r1_w7_w1_robot__m__1__wh__ws */
+    REAL(0.0016695348978813548),     /* r1_w7_robot__Fx__1 */
+    REAL(0.00031303779335275394),    /* r1_w8_robot__m__1__wh__ws */
+    REAL(2.0869186223516933e-07),    /* r1_w9_robot__m__1__me__we */
+    -REAL(5.844083592115093e-07),    /* r1_w9_w1_robot__m__1__me__we */
+    REAL(1.992058684972074e-10),     /* r1_w9_w2_robot__m__1__me__we */
+    REAL(2.5043023468220318e-05),    /* r1_w9_robot__m__1__wh__ws */
+    -REAL(1.670388637317773e-05),    /* r1_w9_w1_robot__m__1__wh__ws */
+    REAL(5.691596242777355e-09),     /* r1_w9_w2_robot__m__1__wh__ws */
+    REAL(0.000667813959152542),      /* r1_w9_robot__Fx__1 */
+    REAL(2.2766384971109398e-07),    /* r1_w9_w1_robot__Fx__1 */
+    REAL(0.00012521511734110157),    /* r1_w10_robot__m__1__wh__ws */
+    REAL(4.2686971820830126e-08),    /* r1_w10_w1_robot__m__1__wh__ws */
     REAL(0.0002400000000000002),     /* r2_w1_w1_robot__m__1__wh__ws */
     REAL(5.014245014245014e-05),     /* r3_w1_robot__m__2__me__we */
     REAL(1.7094017094017106e-08),    /* r3_w1_w1_robot__m__2__me__we */
@@ -897,25 +897,25 @@ const khepera_plausible_threshold_coefficients khepera_plausible_threshold_nomin
     REAL(2.7350427350427397e-07),    /* r3_w3_w2_robot__m__2__wh__ws */
     REAL(0.006017094017094017),      /* r3_w4_robot__m__2__wh__ws */
     REAL(2.051282051282053e-06),     /* r3_w4_w1_robot__m__2__wh__ws */
-    REAL(3.4344143933185027e-06),    /* r3_w5_robot__m__2__me__we */
-    REAL(1.3737657573274012e-06),    /* r3_w6_robot__m__2__me__we */
-    REAL(4.683292354525234e-10),     /* r3_w6_w1_robot__m__2__me__we */
-    REAL(6.868828786637006e-07),     /* r3_w7_robot__m__2__me__we */
-    REAL(1.9232720602583634e-06),    /* r3_w7_w1_robot__m__2__me__we */
-    REAL(8.242594543964407e-05),     /* r3_w7_robot__m__2__wh__ws */
-    REAL(5.49506302930961e-05),      /* r3_w7_w1_robot__m__2__wh__ws */
-    REAL(0.002198025211723842),      /* r3_w7_robot__Fx__2 */
-    REAL(0.0004121297271982203),     /* r3_w8_robot__m__2__wh__ws */
-    REAL(2.747531514654802e-07),     /* r3_w9_robot__m__2__me__we */
-    -REAL(7.694024899504359e-07),    /* r3_w9_w1_robot__m__2__me__we */
-    REAL(2.622643718534134e-10),     /* r3_w9_w2_robot__m__2__me__we */
-    REAL(3.2970378175857625e-05),    /* r3_w9_robot__m__2__wh__ws */
-    -REAL(2.1991492018889298e-05),   /* r3_w9_w1_robot__m__2__wh__ws */
-    REAL(7.493267767240383e-09),     /* r3_w9_w2_robot__m__2__wh__ws */
-    REAL(0.0008792100846895368),     /* r3_w9_robot__Fx__2 */
-    REAL(2.99730710689615e-07),      /* r3_w9_w1_robot__Fx__2 */
-    REAL(0.00016485189087928813),    /* r3_w10_robot__m__2__wh__ws */
-    REAL(5.619950825430282e-08),     /* r3_w10_w1_robot__m__2__wh__ws */
+    REAL(2.6086482779396166e-06),    /* r3_w5_robot__m__2__me__we */
+    REAL(1.0434593111758465e-06),    /* r3_w6_robot__m__2__me__we */
+    REAL(3.557247651735843e-10),     /* r3_w6_w1_robot__m__2__me__we */
+    REAL(5.217296555879233e-07),     /* r3_w7_robot__m__2__me__we */
+    REAL(1.4608430356461866e-06),    /* r3_w7_w1_robot__m__2__me__we */
+    REAL(6.260755867055079e-05),     /* r3_w7_robot__m__2__wh__ws */
+    REAL(4.17383724470339e-05),      /* r3_w7_w1_robot__m__2__wh__ws */
+    REAL(0.0016695348978813548),     /* r3_w7_robot__Fx__2 */
+    REAL(0.00031303779335275394),    /* r3_w8_robot__m__2__wh__ws */
+    REAL(2.0869186223516933e-07),    /* r3_w9_robot__m__2__me__we */
+    -REAL(5.844083592115093e-07),    /* r3_w9_w1_robot__m__2__me__we */
+    REAL(1.992058684972074e-10),     /* r3_w9_w2_robot__m__2__me__we */
+    REAL(2.5043023468220318e-05),    /* r3_w9_robot__m__2__wh__ws */
+    -REAL(1.670388637317773e-05),    /* r3_w9_w1_robot__m__2__wh__ws */
+    REAL(5.691596242777355e-09),     /* r3_w9_w2_robot__m__2__wh__ws */
+    REAL(0.000667813959152542),      /* r3_w9_robot__Fx__2 */
+    REAL(2.2766384971109398e-07),    /* r3_w9_w1_robot__Fx__2 */
+    REAL(0.00012521511734110157),    /* r3_w10_robot__m__2__wh__ws */
+    REAL(4.2686971820830126e-08),    /* r3_w10_w1_robot__m__2__wh__ws */
     REAL(0.0002400000000000002),     /* r4_w1_w1_robot__m__2__wh__ws */
     {562u, 562u, 562u, 562u, 346u},  /* samples until each is valid */
     562u                             /* the longest of these */
@@ -1036,19 +1036,19 @@ static void bound_compute_r1_w7(khepera_plausible_threshold_coefficients *c,
         real fe_times_Re_over_k, real product, real product_2, real product_12, real product_13)
 {
     /* khepera.bg:17: r1_w7: factor of robot.m[1].me.we */
-    c->r1_w7_robot__m__1__me__we = fe_times_Re_over_k / REAL(730.0);
+    c->r1_w7_robot__m__1__me__we = REAL(37.0) * fe_times_Re_over_k / REAL(35560.0);
 
     /* r1_w7: factor of robot.m[1].me.we' */
-    c->r1_w7_w1_robot__m__1__me__we = product_13 / REAL(730.0);
+    c->r1_w7_w1_robot__m__1__me__we = REAL(37.0) * product_13 / REAL(35560.0);
 
     /* r1_w7: factor of robot.m[1].wh.ws */
-    c->r1_w7_robot__m__1__wh__ws = product / REAL(730.0);
+    c->r1_w7_robot__m__1__wh__ws = REAL(37.0) * product / REAL(35560.0);
 
     /* r1_w7: factor of robot.m[1].wh.ws' */
-    c->r1_w7_w1_robot__m__1__wh__ws = product_12 / REAL(730.0);
+    c->r1_w7_w1_robot__m__1__wh__ws = REAL(37.0) * product_12 / REAL(35560.0);
 
     /* r1_w7: factor of robot.Fx[1] */
-    c->r1_w7_robot__Fx__1 = product_2 / REAL(730.0);
+    c->r1_w7_robot__Fx__1 = REAL(37.0) * product_2 / REAL(35560.0);
 }
 
 /* r1_w9: coefficients */
@@ -1057,38 +1057,38 @@ static void bound_compute_r1_w9(khepera_plausible_threshold_coefficients *c,
         real product_2, real product_5, real product_6, real product_7)
 {
     /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we */
-    c->r1_w9_robot__m__1__me__we = fe_times_Re_over_k / REAL(1825.0);
+    c->r1_w9_robot__m__1__me__we = REAL(37.0) * fe_times_Re_over_k / REAL(88900.0);
 
     /* r1_w9: factor of robot.m[1].me.we' */
-    c->r1_w9_w1_robot__m__1__me__we = p->robot__m__1__el__k * p->robot__m__1__el__k * w
+    c->r1_w9_w1_robot__m__1__me__we = REAL(37.0) * p->robot__m__1__el__k * p->robot__m__1__el__k * w
             * (-REAL(2.0) * p->fe__1 * p->robot__m__1__el__L / p->robot__m__1__el__k
                 / p->robot__m__1__el__k / p->robot__m__1__el__k
             - REAL(2.0) * p->robot__m__1__el__Re * p->robot__m__1__me__Je / p->robot__m__1__el__k
                 / p->robot__m__1__el__k / p->robot__m__1__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r1_w9: factor of robot.m[1].me.we'' */
-    c->r1_w9_w2_robot__m__1__me__we = product_5 / REAL(1825.0);
+    c->r1_w9_w2_robot__m__1__me__we = REAL(37.0) * product_5 / REAL(88900.0);
 
     /* r1_w9: factor of robot.m[1].wh.ws */
-    c->r1_w9_robot__m__1__wh__ws = product / REAL(1825.0);
+    c->r1_w9_robot__m__1__wh__ws = REAL(37.0) * product / REAL(88900.0);
 
     /* r1_w9: factor of robot.m[1].wh.ws' */
-    c->r1_w9_w1_robot__m__1__wh__ws = p->robot__m__1__el__k * p->robot__m__1__el__k * w
+    c->r1_w9_w1_robot__m__1__wh__ws = REAL(37.0) * p->robot__m__1__el__k * p->robot__m__1__el__k * w
             * (-REAL(2.0) * p->robot__m__1__el__L * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
                 / p->robot__m__1__el__k / p->robot__m__1__el__k / p->robot__m__1__el__k
             - REAL(2.0) * p->Js__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
                 / p->robot__m__1__el__k / p->robot__m__1__el__k / p->robot__m__1__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r1_w9: factor of robot.m[1].wh.ws'' */
-    c->r1_w9_w2_robot__m__1__wh__ws = product_6 / REAL(1825.0);
+    c->r1_w9_w2_robot__m__1__wh__ws = REAL(37.0) * product_6 / REAL(88900.0);
 
     /* r1_w9: factor of robot.Fx[1] */
-    c->r1_w9_robot__Fx__1 = product_2 / REAL(1825.0);
+    c->r1_w9_robot__Fx__1 = REAL(37.0) * product_2 / REAL(88900.0);
 
     /* r1_w9: factor of robot.Fx[1]' */
-    c->r1_w9_w1_robot__Fx__1 = product_7 / REAL(1825.0);
+    c->r1_w9_w1_robot__Fx__1 = REAL(37.0) * product_7 / REAL(88900.0);
 }
 
 /* r1: coefficients */
@@ -1126,27 +1126,27 @@ static void bound_compute_r1(khepera_plausible_threshold_coefficients *c,
     c->r1_w4_w1_robot__m__1__wh__ws = product_14 / REAL(10.0);
 
     /* r1_w5: factor of robot.m[1].me.we */
-    c->r1_w5_robot__m__1__me__we = fe_times_Re_over_k / REAL(146.0);
+    c->r1_w5_robot__m__1__me__we = REAL(37.0) * fe_times_Re_over_k / REAL(7112.0);
 
     /* r1_w6: factor of robot.m[1].me.we */
-    c->r1_w6_robot__m__1__me__we = fe_times_Re_over_k / REAL(365.0);
+    c->r1_w6_robot__m__1__me__we = REAL(37.0) * fe_times_Re_over_k / REAL(17780.0);
 
     /* r1_w6: factor of robot.m[1].me.we' */
-    c->r1_w6_w1_robot__m__1__me__we = product_11 / REAL(365.0);
+    c->r1_w6_w1_robot__m__1__me__we = REAL(37.0) * product_11 / REAL(17780.0);
 
     bound_compute_r1_w7(c, fe_times_Re_over_k, product, product_2, product_12, product_13);
 
     /* khepera.bg:17: r1_w8: factor of robot.m[1].wh.ws */
-    c->r1_w8_robot__m__1__wh__ws = product / REAL(146.0);
+    c->r1_w8_robot__m__1__wh__ws = REAL(37.0) * product / REAL(7112.0);
 
     bound_compute_r1_w9(c, p, w, fe_times_Re_over_k, product, product_2, product_5, product_6,
             product_7);
 
     /* khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws */
-    c->r1_w10_robot__m__1__wh__ws = product / REAL(365.0);
+    c->r1_w10_robot__m__1__wh__ws = REAL(37.0) * product / REAL(17780.0);
 
     /* r1_w10: factor of robot.m[1].wh.ws' */
-    c->r1_w10_w1_robot__m__1__wh__ws = product_14 / REAL(365.0);
+    c->r1_w10_w1_robot__m__1__wh__ws = REAL(37.0) * product_14 / REAL(17780.0);
 }
 
 /* filter: coefficients */
@@ -1283,19 +1283,19 @@ static void bound_compute_r3_w7(khepera_plausible_threshold_coefficients *c,
         real fe_times_Re_over_k_2, real product_3, real product_4, real product_16, real product_17)
 {
     /* khepera.bg:17: r3_w7: factor of robot.m[2].me.we */
-    c->r3_w7_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(730.0);
+    c->r3_w7_robot__m__2__me__we = REAL(37.0) * fe_times_Re_over_k_2 / REAL(35560.0);
 
     /* r3_w7: factor of robot.m[2].me.we' */
-    c->r3_w7_w1_robot__m__2__me__we = product_17 / REAL(730.0);
+    c->r3_w7_w1_robot__m__2__me__we = REAL(37.0) * product_17 / REAL(35560.0);
 
     /* r3_w7: factor of robot.m[2].wh.ws */
-    c->r3_w7_robot__m__2__wh__ws = product_3 / REAL(730.0);
+    c->r3_w7_robot__m__2__wh__ws = REAL(37.0) * product_3 / REAL(35560.0);
 
     /* r3_w7: factor of robot.m[2].wh.ws' */
-    c->r3_w7_w1_robot__m__2__wh__ws = product_16 / REAL(730.0);
+    c->r3_w7_w1_robot__m__2__wh__ws = REAL(37.0) * product_16 / REAL(35560.0);
 
     /* r3_w7: factor of robot.Fx[2] */
-    c->r3_w7_robot__Fx__2 = product_4 / REAL(730.0);
+    c->r3_w7_robot__Fx__2 = REAL(37.0) * product_4 / REAL(35560.0);
 }
 
 /* r3_w9: coefficients */
@@ -1304,38 +1304,38 @@ static void bound_compute_r3_w9(khepera_plausible_threshold_coefficients *c,
         real product_4, real product_8, real product_9, real product_10)
 {
     /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we */
-    c->r3_w9_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(1825.0);
+    c->r3_w9_robot__m__2__me__we = REAL(37.0) * fe_times_Re_over_k_2 / REAL(88900.0);
 
     /* r3_w9: factor of robot.m[2].me.we' */
-    c->r3_w9_w1_robot__m__2__me__we = p->robot__m__2__el__k * p->robot__m__2__el__k * w
+    c->r3_w9_w1_robot__m__2__me__we = REAL(37.0) * p->robot__m__2__el__k * p->robot__m__2__el__k * w
             * (-REAL(2.0) * p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k
                 / p->robot__m__2__el__k / p->robot__m__2__el__k
             - REAL(2.0) * p->robot__m__2__el__Re * p->robot__m__2__me__Je / p->robot__m__2__el__k
                 / p->robot__m__2__el__k / p->robot__m__2__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r3_w9: factor of robot.m[2].me.we'' */
-    c->r3_w9_w2_robot__m__2__me__we = product_8 / REAL(1825.0);
+    c->r3_w9_w2_robot__m__2__me__we = REAL(37.0) * product_8 / REAL(88900.0);
 
     /* r3_w9: factor of robot.m[2].wh.ws */
-    c->r3_w9_robot__m__2__wh__ws = product_3 / REAL(1825.0);
+    c->r3_w9_robot__m__2__wh__ws = REAL(37.0) * product_3 / REAL(88900.0);
 
     /* r3_w9: factor of robot.m[2].wh.ws' */
-    c->r3_w9_w1_robot__m__2__wh__ws = p->robot__m__2__el__k * p->robot__m__2__el__k * w
+    c->r3_w9_w1_robot__m__2__wh__ws = REAL(37.0) * p->robot__m__2__el__k * p->robot__m__2__el__k * w
             * (-REAL(2.0) * p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
                 / p->robot__m__2__el__k / p->robot__m__2__el__k / p->robot__m__2__el__k
             - REAL(2.0) * p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
                 / p->robot__m__2__el__k / p->robot__m__2__el__k / p->robot__m__2__el__k)
-            / REAL(3650.0);
+            / REAL(177800.0);
 
     /* r3_w9: factor of robot.m[2].wh.ws'' */
-    c->r3_w9_w2_robot__m__2__wh__ws = product_9 / REAL(1825.0);
+    c->r3_w9_w2_robot__m__2__wh__ws = REAL(37.0) * product_9 / REAL(88900.0);
 
     /* r3_w9: factor of robot.Fx[2] */
-    c->r3_w9_robot__Fx__2 = product_4 / REAL(1825.0);
+    c->r3_w9_robot__Fx__2 = REAL(37.0) * product_4 / REAL(88900.0);
 
     /* r3_w9: factor of robot.Fx[2]' */
-    c->r3_w9_w1_robot__Fx__2 = product_10 / REAL(1825.0);
+    c->r3_w9_w1_robot__Fx__2 = REAL(37.0) * product_10 / REAL(88900.0);
 }
 
 /* r3: coefficients */
@@ -1373,27 +1373,27 @@ static void bound_compute_r3(khepera_plausible_threshold_coefficients *c,
     c->r3_w4_w1_robot__m__2__wh__ws = product_18 / REAL(10.0);
 
     /* r3_w5: factor of robot.m[2].me.we */
-    c->r3_w5_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(146.0);
+    c->r3_w5_robot__m__2__me__we = REAL(37.0) * fe_times_Re_over_k_2 / REAL(7112.0);
 
     /* r3_w6: factor of robot.m[2].me.we */
-    c->r3_w6_robot__m__2__me__we = fe_times_Re_over_k_2 / REAL(365.0);
+    c->r3_w6_robot__m__2__me__we = REAL(37.0) * fe_times_Re_over_k_2 / REAL(17780.0);
 
     /* r3_w6: factor of robot.m[2].me.we' */
-    c->r3_w6_w1_robot__m__2__me__we = product_15 / REAL(365.0);
+    c->r3_w6_w1_robot__m__2__me__we = REAL(37.0) * product_15 / REAL(17780.0);
 
     bound_compute_r3_w7(c, fe_times_Re_over_k_2, product_3, product_4, product_16, product_17);
 
     /* khepera.bg:17: r3_w8: factor of robot.m[2].wh.ws */
-    c->r3_w8_robot__m__2__wh__ws = product_3 / REAL(146.0);
+    c->r3_w8_robot__m__2__wh__ws = REAL(37.0) * product_3 / REAL(7112.0);
 
     bound_compute_r3_w9(c, p, w, fe_times_Re_over_k_2, product_3, product_4, product_8, product_9,
             product_10);
 
     /* khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws */
-    c->r3_w10_robot__m__2__wh__ws = product_3 / REAL(365.0);
+    c->r3_w10_robot__m__2__wh__ws = REAL(37.0) * product_3 / REAL(17780.0);
 
     /* r3_w10: factor of robot.m[2].wh.ws' */
-    c->r3_w10_w1_robot__m__2__wh__ws = product_18 / REAL(365.0);
+    c->r3_w10_w1_robot__m__2__wh__ws = REAL(37.0) * product_18 / REAL(17780.0);
 }
 
 /* The coefficients, from the parameters. */

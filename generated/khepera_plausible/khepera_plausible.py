@@ -1285,75 +1285,75 @@ class Thresholds:
         c.r1_w4_w1_robot__m__1__wh__ws = product_14 / 10.0
 
         # r1_w5: factor of robot.m[1].me.we
-        c.r1_w5_robot__m__1__me__we = fe_times_Re_over_k / 146.0
+        c.r1_w5_robot__m__1__me__we = 37.0 * fe_times_Re_over_k / 7112.0
 
         # r1_w6: factor of robot.m[1].me.we
-        c.r1_w6_robot__m__1__me__we = fe_times_Re_over_k / 365.0
+        c.r1_w6_robot__m__1__me__we = 37.0 * fe_times_Re_over_k / 17780.0
 
         # r1_w6: factor of robot.m[1].me.we'
-        c.r1_w6_w1_robot__m__1__me__we = product_11 / 365.0
+        c.r1_w6_w1_robot__m__1__me__we = 37.0 * product_11 / 17780.0
 
         # r1_w7: factor of robot.m[1].me.we
-        c.r1_w7_robot__m__1__me__we = fe_times_Re_over_k / 730.0
+        c.r1_w7_robot__m__1__me__we = 37.0 * fe_times_Re_over_k / 35560.0
 
         # r1_w7: factor of robot.m[1].me.we'
-        c.r1_w7_w1_robot__m__1__me__we = product_13 / 730.0
+        c.r1_w7_w1_robot__m__1__me__we = 37.0 * product_13 / 35560.0
 
         # r1_w7: factor of robot.m[1].wh.ws
-        c.r1_w7_robot__m__1__wh__ws = product / 730.0
+        c.r1_w7_robot__m__1__wh__ws = 37.0 * product / 35560.0
 
         # r1_w7: factor of robot.m[1].wh.ws'
-        c.r1_w7_w1_robot__m__1__wh__ws = product_12 / 730.0
+        c.r1_w7_w1_robot__m__1__wh__ws = 37.0 * product_12 / 35560.0
 
         # r1_w7: factor of robot.Fx[1]
-        c.r1_w7_robot__Fx__1 = product_2 / 730.0
+        c.r1_w7_robot__Fx__1 = 37.0 * product_2 / 35560.0
 
         # r1_w8: factor of robot.m[1].wh.ws
-        c.r1_w8_robot__m__1__wh__ws = product / 146.0
+        c.r1_w8_robot__m__1__wh__ws = 37.0 * product / 7112.0
 
         # r1_w9: factor of robot.m[1].me.we
-        c.r1_w9_robot__m__1__me__we = fe_times_Re_over_k / 1825.0
+        c.r1_w9_robot__m__1__me__we = 37.0 * fe_times_Re_over_k / 88900.0
 
         # r1_w9: factor of robot.m[1].me.we'
         c.r1_w9_w1_robot__m__1__me__we = (
-            p.robot__m__1__el__k * p.robot__m__1__el__k * w
+            37.0 * p.robot__m__1__el__k * p.robot__m__1__el__k * w
                 * (-2.0 * p.fe__1 * p.robot__m__1__el__L / p.robot__m__1__el__k
                     / p.robot__m__1__el__k / p.robot__m__1__el__k
                 - 2.0 * p.robot__m__1__el__Re * p.robot__m__1__me__Je / p.robot__m__1__el__k
                     / p.robot__m__1__el__k / p.robot__m__1__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r1_w9: factor of robot.m[1].me.we''
-        c.r1_w9_w2_robot__m__1__me__we = product_5 / 1825.0
+        c.r1_w9_w2_robot__m__1__me__we = 37.0 * product_5 / 88900.0
 
         # r1_w9: factor of robot.m[1].wh.ws
-        c.r1_w9_robot__m__1__wh__ws = product / 1825.0
+        c.r1_w9_robot__m__1__wh__ws = 37.0 * product / 88900.0
 
         # r1_w9: factor of robot.m[1].wh.ws'
         c.r1_w9_w1_robot__m__1__wh__ws = (
-            p.robot__m__1__el__k * p.robot__m__1__el__k * w
+            37.0 * p.robot__m__1__el__k * p.robot__m__1__el__k * w
                 * (-2.0 * p.robot__m__1__el__L * p.robot__m__1__wh__fs / p.robot__m__1__ge__N
                     / p.robot__m__1__el__k / p.robot__m__1__el__k / p.robot__m__1__el__k
                 - 2.0 * p.Js__1 * p.robot__m__1__el__Re / p.robot__m__1__ge__N
                     / p.robot__m__1__el__k / p.robot__m__1__el__k / p.robot__m__1__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r1_w9: factor of robot.m[1].wh.ws''
-        c.r1_w9_w2_robot__m__1__wh__ws = product_6 / 1825.0
+        c.r1_w9_w2_robot__m__1__wh__ws = 37.0 * product_6 / 88900.0
 
         # r1_w9: factor of robot.Fx[1]
-        c.r1_w9_robot__Fx__1 = product_2 / 1825.0
+        c.r1_w9_robot__Fx__1 = 37.0 * product_2 / 88900.0
 
         # r1_w9: factor of robot.Fx[1]'
-        c.r1_w9_w1_robot__Fx__1 = product_7 / 1825.0
+        c.r1_w9_w1_robot__Fx__1 = 37.0 * product_7 / 88900.0
 
         # r1_w10: factor of robot.m[1].wh.ws
-        c.r1_w10_robot__m__1__wh__ws = product / 365.0
+        c.r1_w10_robot__m__1__wh__ws = 37.0 * product / 17780.0
 
         # r1_w10: factor of robot.m[1].wh.ws'
-        c.r1_w10_w1_robot__m__1__wh__ws = product_14 / 365.0
+        c.r1_w10_w1_robot__m__1__wh__ws = 37.0 * product_14 / 17780.0
 
         # khepera.bg:41: r2_w1: factor of robot.m[1].wh.ws'
         c.r2_w1_w1_robot__m__1__wh__ws = (
@@ -1429,75 +1429,75 @@ class Thresholds:
         c.r3_w4_w1_robot__m__2__wh__ws = product_18 / 10.0
 
         # r3_w5: factor of robot.m[2].me.we
-        c.r3_w5_robot__m__2__me__we = fe_times_Re_over_k_2 / 146.0
+        c.r3_w5_robot__m__2__me__we = 37.0 * fe_times_Re_over_k_2 / 7112.0
 
         # r3_w6: factor of robot.m[2].me.we
-        c.r3_w6_robot__m__2__me__we = fe_times_Re_over_k_2 / 365.0
+        c.r3_w6_robot__m__2__me__we = 37.0 * fe_times_Re_over_k_2 / 17780.0
 
         # r3_w6: factor of robot.m[2].me.we'
-        c.r3_w6_w1_robot__m__2__me__we = product_15 / 365.0
+        c.r3_w6_w1_robot__m__2__me__we = 37.0 * product_15 / 17780.0
 
         # r3_w7: factor of robot.m[2].me.we
-        c.r3_w7_robot__m__2__me__we = fe_times_Re_over_k_2 / 730.0
+        c.r3_w7_robot__m__2__me__we = 37.0 * fe_times_Re_over_k_2 / 35560.0
 
         # r3_w7: factor of robot.m[2].me.we'
-        c.r3_w7_w1_robot__m__2__me__we = product_17 / 730.0
+        c.r3_w7_w1_robot__m__2__me__we = 37.0 * product_17 / 35560.0
 
         # r3_w7: factor of robot.m[2].wh.ws
-        c.r3_w7_robot__m__2__wh__ws = product_3 / 730.0
+        c.r3_w7_robot__m__2__wh__ws = 37.0 * product_3 / 35560.0
 
         # r3_w7: factor of robot.m[2].wh.ws'
-        c.r3_w7_w1_robot__m__2__wh__ws = product_16 / 730.0
+        c.r3_w7_w1_robot__m__2__wh__ws = 37.0 * product_16 / 35560.0
 
         # r3_w7: factor of robot.Fx[2]
-        c.r3_w7_robot__Fx__2 = product_4 / 730.0
+        c.r3_w7_robot__Fx__2 = 37.0 * product_4 / 35560.0
 
         # r3_w8: factor of robot.m[2].wh.ws
-        c.r3_w8_robot__m__2__wh__ws = product_3 / 146.0
+        c.r3_w8_robot__m__2__wh__ws = 37.0 * product_3 / 7112.0
 
         # r3_w9: factor of robot.m[2].me.we
-        c.r3_w9_robot__m__2__me__we = fe_times_Re_over_k_2 / 1825.0
+        c.r3_w9_robot__m__2__me__we = 37.0 * fe_times_Re_over_k_2 / 88900.0
 
         # r3_w9: factor of robot.m[2].me.we'
         c.r3_w9_w1_robot__m__2__me__we = (
-            p.robot__m__2__el__k * p.robot__m__2__el__k * w
+            37.0 * p.robot__m__2__el__k * p.robot__m__2__el__k * w
                 * (-2.0 * p.fe__2 * p.robot__m__2__el__L / p.robot__m__2__el__k
                     / p.robot__m__2__el__k / p.robot__m__2__el__k
                 - 2.0 * p.robot__m__2__el__Re * p.robot__m__2__me__Je / p.robot__m__2__el__k
                     / p.robot__m__2__el__k / p.robot__m__2__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r3_w9: factor of robot.m[2].me.we''
-        c.r3_w9_w2_robot__m__2__me__we = product_8 / 1825.0
+        c.r3_w9_w2_robot__m__2__me__we = 37.0 * product_8 / 88900.0
 
         # r3_w9: factor of robot.m[2].wh.ws
-        c.r3_w9_robot__m__2__wh__ws = product_3 / 1825.0
+        c.r3_w9_robot__m__2__wh__ws = 37.0 * product_3 / 88900.0
 
         # r3_w9: factor of robot.m[2].wh.ws'
         c.r3_w9_w1_robot__m__2__wh__ws = (
-            p.robot__m__2__el__k * p.robot__m__2__el__k * w
+            37.0 * p.robot__m__2__el__k * p.robot__m__2__el__k * w
                 * (-2.0 * p.robot__m__2__el__L * p.robot__m__2__wh__fs / p.robot__m__2__ge__N
                     / p.robot__m__2__el__k / p.robot__m__2__el__k / p.robot__m__2__el__k
                 - 2.0 * p.Js__2 * p.robot__m__2__el__Re / p.robot__m__2__ge__N
                     / p.robot__m__2__el__k / p.robot__m__2__el__k / p.robot__m__2__el__k)
-                / 3650.0
+                / 177800.0
         )
 
         # r3_w9: factor of robot.m[2].wh.ws''
-        c.r3_w9_w2_robot__m__2__wh__ws = product_9 / 1825.0
+        c.r3_w9_w2_robot__m__2__wh__ws = 37.0 * product_9 / 88900.0
 
         # r3_w9: factor of robot.Fx[2]
-        c.r3_w9_robot__Fx__2 = product_4 / 1825.0
+        c.r3_w9_robot__Fx__2 = 37.0 * product_4 / 88900.0
 
         # r3_w9: factor of robot.Fx[2]'
-        c.r3_w9_w1_robot__Fx__2 = product_10 / 1825.0
+        c.r3_w9_w1_robot__Fx__2 = 37.0 * product_10 / 88900.0
 
         # r3_w10: factor of robot.m[2].wh.ws
-        c.r3_w10_robot__m__2__wh__ws = product_3 / 365.0
+        c.r3_w10_robot__m__2__wh__ws = 37.0 * product_3 / 17780.0
 
         # r3_w10: factor of robot.m[2].wh.ws'
-        c.r3_w10_w1_robot__m__2__wh__ws = product_18 / 365.0
+        c.r3_w10_w1_robot__m__2__wh__ws = 37.0 * product_18 / 17780.0
 
         # khepera.bg:41: r4_w1: factor of robot.m[2].wh.ws'
         c.r4_w1_w1_robot__m__2__wh__ws = (

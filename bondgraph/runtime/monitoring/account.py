@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from bondgraph.runtime.monitoring.clock import THROWN, Clock, Piece
 from bondgraph.runtime.monitoring.residual_states import BLIND, STATES, WARMING, ResidualStates
+from bondgraph.text.moment import lasting
 from bondgraph.text.numerals import listed
 
 #: Why a sample that was read is not used, besides those that the clock throws away: the machine
@@ -73,7 +74,7 @@ class Account:
         for name, seconds in self.unwatched().items():
             if seconds > 0.0:
                 alike.setdefault(seconds, []).append(name)
-        parts = [f"{listed(n, 'and', 5)} for {t:.3f} s" for t, n in alike.items()]
+        parts = [f"{listed(n, 'and', 5)} for {lasting(t)}" for t, n in alike.items()]
         used = max(self.samples["used"], 1)
         often = {n: k / used for n, k in self.missing.items() if k > _OFTEN * used}
         bare = [f"{n} had no number in {100.0 * share:.3g} % of them" for n, share in often.items()]

@@ -110,6 +110,26 @@ def test_a_signal_that_is_in_the_log_too_soon_comes_early(
     assert [float(time) for _, time in told] == pytest.approx([1.0, 0.5], abs=0.02)
 
 
+def test_times_of_a_slow_log_are_told_in_units_that_people_count_in(
+    bondgraph: Command, folder: Path
+) -> None:
+    """A sample each 30 s for two days: `2.17e+04 ms early in the log` and `1.8e+05 s of healthy
+    operation` was told of such a one."""
+    t = 30.0 * np.arange(6000)
+    drive = np.where(np.floor(t / 3600.0) % 2 == 0, 1.0, -1.0) * (1.0 + t / t[-1])
+    soon = 0.5 * (drive + np.append(drive[1:], drive[-1]))
+    noise = np.random.default_rng(3).normal(0.0, 0.001, len(t))
+    text = "bg 1\nmodel M { param R = 2 Ohm; Se:U -> 1:i -> R:R; i -> Df:y }"
+    (folder / "r.bg").write_text(text)
+    write_log(Log(t, {"U": soon, "y": drive / 3.0 + noise}, {}, {}), "log.csv")
+    done = bondgraph("fit", "r.bg", "log.csv", "-o", "p.toml")
+    assert done.status == 0, done.err
+    assert re.search(r"^  U comes (29|30)[.0-9]* s early in the log$", done.out, re.MULTILINE)
+    assert re.search(r" told by 2\.0[0-9] days of healthy operation\n", done.out)
+    tuned = bondgraph("tune", "r.bg", "log.csv", "-o", "t.json")
+    assert re.search(r" tuned on 2\.0[0-9] days for ", tuned.out), tuned.out
+
+
 def test_a_delay_that_may_be_more_than_is_fitted_is_told_so(
     bondgraph: Command, folder: Path
 ) -> None:

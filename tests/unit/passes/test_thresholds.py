@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import itertools
+import math
+import random
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +16,7 @@ from scipy.integrate import solve_ivp
 import bondgraph
 from bondgraph.cli.summary import report
 from bondgraph.ir.program import Program
+from bondgraph.passes.lowering.uncertain import enlarged
 from bondgraph.pipeline import Compilation
 from tests.sampled import Sampled
 
@@ -166,6 +170,37 @@ def test_all_orders_of_three_parameters_stay_inside(tmp_path: Path) -> None:
     compilation = _compiled(tmp_path, _SHAFT)
     found = _ratios(compilation, _shaft, (3.0, 0.05, 0.2), (0.2, 0.1, 0.1), 1.0)
     assert all(0.7 < ratio <= 1.0 for ratio in found.values()), found
+
+
+@pytest.mark.parametrize(
+    ("law", "worst"),
+    [("e = a*b*c*f", 0.7**-3 - 1.0), ("f = a*b*c*e", 1.3**3 - 1.0)],  # I - u/(a*b*c), I - a*b*c*u
+)
+def test_three_wide_tolerances_of_one_term_are_no_more_than_its_worst_corner(
+    law: str, worst: float, tmp_path: Path
+) -> None:
+    """A factor of ten for all that is behind the second order made 3.6 times the term of it."""
+    names = "\n".join(f"    param {name} = 2 +- 30%" for name in "abc")
+    node = f"Sf:I -> 0:n\n    n -> R:r {{ {law} }}\n    n -> De:u"
+    made = _compiled(tmp_path, f"bg 1\nmodel One {{\n{names}\n    {node}\n}}\n")
+    samples = {"I": np.full(_TIME.size, 1.0), "u": np.full(_TIME.size, 8.0**law.startswith("e"))}
+    term = 1.0 if law.startswith("e") else 8.0
+    bound = _run(_thresholds(made), samples)["r1"][-1]
+    assert bound == pytest.approx(term * worst, rel=1e-6)
+
+
+def test_what_is_behind_the_second_order_is_enough_for_any_product() -> None:
+    """Of some of the factors too, of up to five of up to 50 %, against the products themselves."""
+    draw = random.Random(1)
+    for _ in range(2000):
+        every = [(draw.random() / 2, draw.random() < 0.5) for _ in range(draw.randint(1, 5))]
+        own = [one for one in every if draw.random() < 0.7]
+        worst = math.prod(1.0 / (1.0 - d) if divides else 1.0 + d for d, divides in own)
+        first = sum(d for d, _ in own)
+        squares = sum(d * d if divides else -d * d for d, divides in own)
+        ways = [[Fraction(d) for d, divides in every if divides == way] for way in (False, True)]
+        room = first + float(enlarged(*ways)) * (first**2 + squares) / 2
+        assert worst - 1.0 <= room + 1e-12
 
 
 def test_a_model_without_tolerances_has_no_thresholds(tmp_path: Path) -> None:

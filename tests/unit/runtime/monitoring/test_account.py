@@ -43,6 +43,8 @@ def test_residuals_that_were_idle_for_as_long_are_named_together(account: Accoun
     assert account.words() == "blind or warming up: r1 and r2 for 0.500 s"
     found[1, STATES.index(BLIND)] = 100
     assert account.words() == "blind or warming up: r1 for 0.500 s and r2 for 1.000 s"
+    found[1, STATES.index(BLIND)] = 1_000_000
+    assert account.words() == "blind or warming up: r1 for 0.500 s and r2 for 2.78 h"
 
 
 def test_cells_without_a_number_are_counted_by_signal(account: Account) -> None:
