@@ -294,8 +294,9 @@ class Compilation:
         True
         """
         from bondgraph.runtime.diagnosis.fit_filter import fit_by_filter
+        from bondgraph.runtime.diagnosis.healthy_tolerances import with_room
         from bondgraph.runtime.diagnosis.parameter_fit import fit, fittable
-        from bondgraph.runtime.diagnosis.tuning import bandwidth_for
+        from bondgraph.runtime.diagnosis.tuning import bandwidth_for, tuned_bandwidth
         from bondgraph.runtime.monitoring.whole_logs import stretches
         from bondgraph.runtime.simulation.parameters import units
 
@@ -304,14 +305,18 @@ class Compilation:
         chosen = fittable(engine, model.faults, tolerances, free)
         pieces = stretches(engine, logs.items(), columns, operating)
         own = units(self.graph)
-        if self.options.bandwidth is not None:
-            return fit(
-                engine, pieces, chosen, tolerances, own, noise or {}, progress, model.memories
-            )
-        usual = bandwidth_for(1.0 / engine.sample_time, sum(log.rows for log in logs.values()))
-        return fit_by_filter(
-            engine, pieces, chosen, tolerances, own, noise or {}, usual, progress, model.memories
-        )
+        told = engine, pieces, chosen, tolerances, own, noise or {}
+        bandwidth, rate = self.options.bandwidth, 1.0 / engine.sample_time
+        if bandwidth is not None:
+            found = fit(*told, progress, model.memories)
+            watched = {bandwidth}
+        else:
+            usual = bandwidth_for(rate, sum(log.rows for log in logs.values()))
+            found = fit_by_filter(*told, usual, progress, model.memories)
+            watched = {bandwidth_for(rate, log.rows) for log in logs.values()}
+            watched |= {tuned_bandwidth(rate, log.rows) for log in logs.values()}
+            watched.add(found.bandwidth)
+        return with_room(found, engine, pieces, tolerances, model.sees, watched, model.memories)
 
     def simulate(
         self,

@@ -40,7 +40,6 @@ _CLIMB = 2.0  # times the fastest of these, for as long as that is clearly the b
 _CLEARLY = 0.1  # of the logarithm of what shows: for less none leaves the usual filter
 _MORE = 1.2  # times the change that shows, above which that without a jump is told beside it
 _LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
-_LONGEST = 1200.0  # s of a log that the usual filter is chosen for at most: alarms end rows late
 WINDOW = 40.0  # time constants of the default filter in which a fault has to show
 
 
@@ -126,9 +125,9 @@ def _usual(rate: float, longest: int, window: float | None = None) -> float:
     noise to learn from its first rows. Nor is the filter slower than a fault allows that has to
     show within a `window` of seconds.
     """
-    from bondgraph.runtime.diagnosis.tuning import FASTEST, bandwidth_for
+    from bondgraph.runtime.diagnosis.tuning import FASTEST, tuned_bandwidth
 
-    usual = bandwidth_for(rate, min(longest, _LONGEST * rate))
+    usual = tuned_bandwidth(rate, longest)
     return max(usual, min(WINDOW / window, FASTEST * rate)) if window else usual
 
 

@@ -279,8 +279,8 @@ def fit(
             name, float(problem.nominal[k]), values[k],
             float(problem.scale[k] * deviation[k]) if told[k] and sound[k] else None,
             units.get(name, ""), bool(bound[k]), bool(told[k] and not sound[k]),
-            _narrower(further[k] / abs(values[k]), tolerances.get(name, 0.0))
-            if told[k] and values[k] else None,
+            float(further[k] / abs(values[k])) if told[k] and values[k]
+            and further[k] < abs(values[k]) * tolerances.get(name, 0.0) else None,
         )
         for k, name in enumerate(names)
     )  # fmt: skip
@@ -308,14 +308,6 @@ def fit(
         float(np.linalg.slogdet(covariance)[1]) / (2.0 * count),
         len({name for name, _ in pieces}),
     )  # fmt: skip
-
-
-def _narrower(tolerance: float, declared: float) -> float | None:
-    """A tolerance in two digits, rounded up, if it is less than what is declared."""
-    if not 0.0 < tolerance < min(declared, 1.0):
-        return None
-    digit = 10.0 ** (math.floor(math.log10(tolerance)) - 1)
-    return float(f"{math.ceil(tolerance / digit) * digit:.3g}")
 
 
 def _more(covariance: Array, own: Sequence[int]) -> float | None:

@@ -24,6 +24,7 @@ _LEAST = {"sigma": 1 / _MOST, "crossings": 0.0, "kappa": 0.0, "height": 0.0, "me
 _SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filter may be, rad
 UNKNOWN = 2.0  #: deviations of what is not known yet of a healthy machine, for which there is room
 FASTEST = 0.4  #: of the rate, rad: no filter has fewer samples to work with
+_LONGEST = 1200.0  # s of a log, or samples, that a tuned filter is chosen for: alarms end rows late
 _ENOUGH = 75  # rows, of three time constants, that a log should have
 
 
@@ -175,6 +176,15 @@ def bandwidth_for(rate: float, samples: float | None = None) -> float:
     """
     rows = 3.6e3 * rate / 3.0 if samples is None else samples / 3.0  # with the rate as bandwidth
     return rate / next((n for n in _SLOWER if rows / n >= _ENOUGH), _SLOWER[-1])
+
+
+def tuned_bandwidth(rate: float, samples: float) -> float:
+    """The same for a watch that is tuned on logs of at most so many samples.
+
+    Healthy samples of many hours make limits surer, and no watch slower: one that is tuned has no
+    noise to learn from its first rows.
+    """
+    return bandwidth_for(rate, min(samples, _LONGEST * max(rate, 1.0)))
 
 
 def kappa(crossings: float, alarms: float) -> float:

@@ -308,6 +308,33 @@ def test_one_log_or_a_narrow_tolerance_leaves_that_of_the_model() -> None:
         assert only(bondgraph.compile(text=text, rate=RATE).fit(logs)).tolerance is None
 
 
+@pytest.mark.parametrize("L", [0.0, 2e-3, 1e-2])
+def test_healthy_logs_stay_below_the_thresholds_of_their_tolerances(L: float) -> None:
+    """Of a coil that the model leaves out (U = R i + L di/dt) the threshold has to have room."""
+    i = 1.0 + 0.5 * np.sin(3.0 * TIME) + 0.1 * np.sin(31.0 * TIME)
+    rate = 1.5 * np.cos(3.0 * TIME) + 3.1 * np.cos(31.0 * TIME)
+    c = bondgraph.compile(text=ONE.replace("2 Ohm", "2 Ohm +- 20%"), rate=RATE)
+    logs = {
+        str(k): Log(TIME, {"U": R * i + L * rate, "y": i + noise(1e-3, k)}, {}, {})
+        for k, R in enumerate((1.999, 2.0, 2.001))
+    }
+    found = c.fit(logs)
+    one = only(found)
+    assert one.tolerance is not None
+    assert (one.tolerance > 0.004) == (L > 0.0)  # 4.303*0.001*sqrt(4/3)/2 = 0.25 % by the logs
+    own = c.with_options(parameters=found.values, tolerances=found.tolerances).engine()
+    for log in logs.values():
+        own.reset()
+        value, valid, bound = own.run(
+            np.column_stack([log.columns[k.path] for k in own.signals])
+        )
+        assert valid[1000:].all()
+        assert (np.abs(value) <= bound + 4.0 * 1e-3)[valid].all()  # less than its noise of 2 mV
+    wide = c.with_options(parameters=found.values).engine()
+    samples = np.column_stack([log.columns[k.path] for k in wide.signals])
+    assert wide.run(samples).bound.max() > bound.max()
+
+
 def test_what_cannot_be_fitted_is_told_with_a_remedy() -> None:
     c = bondgraph.compile(text=ONE, rate=RATE)
     short = Log(TIME[:100], {"U": DRIVE[:100], "y": DRIVE[:100]}, {}, {})
