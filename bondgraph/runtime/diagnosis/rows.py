@@ -34,12 +34,15 @@ def pause(seconds: float) -> int:
 def away(gap: int, needed: int, quiet: int, most: int) -> int:
     """How many rows something has to be away that is back after a `gap`, when it `needed` so many.
 
-    Twice as many as it was away now, or only a few that are `quiet` if it had been away for long.
+    Twice as many as it was away now, or only a few that are `quiet` if it had been away for long,
+    or not at all.
 
     >>> away(3, 2, 2, most=32), away(20, 2, 2, most=32), away(20, 6, 2, most=32)
     (6, 2, 32)
+    >>> away(0, 2, 2, most=32)
+    2
     """
-    return min(2 * gap, most) if gap <= min(_SOON * needed, most) else quiet
+    return max(quiet, min(2 * gap, most)) if gap <= min(_SOON * needed, most) else quiet
 
 
 class Part(NamedTuple):

@@ -84,7 +84,8 @@ class SignalChecks:
 
     `inputs` drive the machine: they may jump and be rough as never before, and so may sensors
     then. What an input shows so is not told by itself; whether it is wrong residuals say. Nor does
-    one stand still that is as large as ever, or as small: controllers are limited. Where one of
+    one stand still that is as large as ever, or as small: controllers are limited, and a sensor of
+    a machine that was switched off by it reads the same. Where one of
     them, or one of the `modes` by their columns, makes a step that is rare, a sensor may answer
     with a peak of a sample or two, as the current into a capacitor that is switched on: no spike
     is looked for there. Of `encoders`, by their columns, is told which stands still while others
@@ -163,8 +164,7 @@ class SignalChecks:
         bottom = np.fmin(self._range[0], own.min(axis=0))
         span = top - bottom
         sizes = self._unusual(far, rough, moved, runs, span, self._matters(rough, suspects))
-        ends = (own[-1] >= top) | (own[-1] <= bottom)
-        sizes["stuck"][0][ends & self._drive] = False  # a command at the end of what it can do
+        sizes["stuck"][0][self._rests(own[-1], runs, top, bottom)] = False
         for kind, (out, now, before) in sizes.items():
             for k in np.flatnonzero(out & (self._samples >= _ENOUGH)).tolist():
                 late = len(with_last) - 1 - where[k] if kind == "spike" else len(own) - 1
@@ -173,12 +173,25 @@ class SignalChecks:
                 one = Unusual(self._names[k], kind, since, float(now[k]), float(before[k]))
                 found[one.signal] = one
         driven = {n for n, one in found.items() if one.kind != "stuck" and n in self._inputs}
-        self._driven = 0 if driven else self._driven + 1
+        with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
+            more = np.fmax(top - self._range[1], self._range[0] - bottom) > _FLOOR * span
+        further = bool((more & self._drive & (self._samples >= _ENOUGH)).any())
+        self._driven = 0 if driven or further else self._driven + 1
         if self._driven < _AFTER:
             found = {n: one for n, one in found.items() if one.kind == "stuck"}
         if healthy and not found:
             self._learn(own, far, rough, moved, ended, changes)
         return found, driven
+
+    def _rests(self, last: Array, runs: Array, top: Array, bottom: Array) -> Mask:
+        """Which signals may stand still: commands at an end of what they do, and sensors at theirs
+        while such a command has stood for as long: a machine that is switched off has no noise.
+        """
+        ends = ((last >= top) | (last <= bottom)) & (top > bottom)
+        commands = ends & self._drive
+        longest = float(np.max(runs, where=commands, initial=0.0))
+        at_rest = ends & ~self._drive & (runs <= longest + _LEAST)
+        return np.asarray(commands | at_rest)
 
     def _begun(self, found: Mapping[str, Unusual], driven: Container[str]) -> list[Unusual]:
         """What is new; what has been away for some rows is over."""

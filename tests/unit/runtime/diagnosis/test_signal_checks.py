@@ -157,6 +157,42 @@ def test_a_command_of_a_controller_may_stand_at_its_limits(value: float, told: b
     assert [(one.signal, one.kind) for one in said] == [("q", "stuck")] * told
 
 
+def _fan(seed: int) -> Array:
+    """A fan that stands, runs and stands, and its power: nothing but zeros while it stands."""
+    draw = np.random.default_rng(seed)
+    k = np.arange(4000)
+    fan = np.where((k >= 1500) & (k < 3000), 0.4 + 0.2 * ((k // 300) % 3), 0.0)
+    power = np.round(180.0 * fan**3 * (1.0 + 0.05 * draw.normal(size=4000)), 1)
+    return np.column_stack([fan, power])
+
+
+def _fan_looked(samples: Array, start: int = 0) -> list[Unusual]:
+    checks = SignalChecks(["fan", "P"], [0, 1], _STEP, inputs=("fan",))
+    rows = [(k, samples[k : k + _ROW]) for k in range(start, len(samples) - _ROW + 1, _ROW)]
+    return [
+        one
+        for k, row in rows
+        for one in checks.row((k + _ROW - 1) * _STEP, row, not checks.active)
+    ]
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("start", [0, 1500])
+def test_a_machine_that_is_switched_on_or_off_is_neither_noisy_nor_stuck(
+    seed: int, start: int
+) -> None:
+    assert _fan_looked(_fan(seed), start) == []
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_power_that_stands_still_while_the_fan_runs_is_told(seed: int) -> None:
+    samples = _fan(seed)
+    samples[2650:, 1] = samples[2650, 1]
+    (one,) = _fan_looked(samples, 1500)
+    assert (one.signal, one.kind) == ("P", "stuck")
+    assert one.since == pytest.approx(2650 * _STEP, abs=3 * _STEP)
+
+
 def test_what_comes_back_soon_is_not_told_each_time() -> None:
     samples = _signals(8)
     samples[2000:4000:130, 2] += 3.0  # sixteen spikes, one in five rows
