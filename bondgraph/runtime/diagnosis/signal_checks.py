@@ -174,8 +174,9 @@ class SignalChecks:
                 found[one.signal] = one
         driven = {n for n, one in found.items() if one.kind != "stuck" and n in self._inputs}
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
-            more = np.fmax(top - self._range[1], self._range[0] - bottom) > _FLOOR * span
-        further = bool((more & self._drive & (self._samples >= _ENOUGH)).any())
+            before = self._range[1] - self._range[0]
+            beyond = (span > 2.0 * before) & (span > 0.0)  # as far as all that it did before
+        further = bool((beyond & self._drive & (self._samples >= _ENOUGH)).any())
         self._driven = 0 if driven or further else self._driven + 1
         if self._driven < _AFTER:
             found = {n: one for n, one in found.items() if one.kind == "stuck"}
@@ -317,14 +318,23 @@ class SignalChecks:
     def _learn(
         self, own: Array, far: Array, rough: Array, moved: Array, ended: Array, changes: Array
     ) -> None:
-        """A healthy row more, of the signals that have a value all through it."""
+        """A healthy row more, of the signals that have a value all through it.
+
+        Two spikes in a row are not told, and not what the signal does: it is as smooth as ever.
+        """
         fresh = np.isfinite(far[0]) & (self._samples < _MOST)
+        with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
+            out = far[0] > np.maximum(
+                _OUT * self._far[0], _FLOOR * (self._range[1] - self._range[0])
+            )
+        quiet = rough <= self._louder() * self._rough[0]
+        spikes = out & quiet & (self._samples >= _ENOUGH)
         beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
         usual = self._run <= np.maximum(self._still, 1.0) * 2.0  # else it may have begun to stand
         for table, more, which in (
             (self._range[1], own.max(axis=0), fresh),
-            (self._far[0], far[0], fresh),
-            (self._far[1], far[1], fresh),
+            (self._far[0], far[0], fresh & ~spikes),
+            (self._far[1], far[1], fresh & ~spikes),
             (self._rough[0], rough, fresh),
             (self._rough[1], beside, fresh),
             (self._still, ended, fresh),

@@ -157,6 +157,15 @@ def test_a_command_of_a_controller_may_stand_at_its_limits(value: float, told: b
     assert [(one.signal, one.kind) for one in said] == [("q", "stuck")] * told
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_two_spikes_in_one_row_are_not_what_the_signal_does(seed: int) -> None:
+    """Of two as large none is alone, and neither is told; later ones are as before."""
+    samples = _signals(seed, 6000)
+    samples[[2005, 2015, 4510], 2] += 3.0
+    (one,) = (one for one in _looked(samples) if one.signal == "T")
+    assert (one.kind, round(one.since / _STEP)) == ("spike", 4510)
+
+
 def _fan(seed: int) -> Array:
     """A fan that stands, runs and stands, and its power: nothing but zeros while it stands."""
     draw = np.random.default_rng(seed)
