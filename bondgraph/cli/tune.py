@@ -119,11 +119,8 @@ def run(args: Namespace) -> int:
 
 
 def _usual(rate: float, longest: int, window: float | None = None) -> float:
-    """The filter that others are held against: that of a watch of logs as long, or of 20 minutes.
-
-    Healthy samples of many hours make limits surer, and no watch slower: one that is tuned has no
-    noise to learn from its first rows. Nor is the filter slower than a fault allows that has to
-    show within a `window` of seconds.
+    """The filter that others are held against: `tuned_bandwidth`, no slower than a fault allows
+    that has to show within a `window` of seconds.
     """
     from bondgraph.runtime.diagnosis.tuning import FASTEST, tuned_bandwidth
 

@@ -179,10 +179,14 @@ def bandwidth_for(rate: float, samples: float | None = None) -> float:
 
 
 def tuned_bandwidth(rate: float, samples: float) -> float:
-    """The same for a watch that is tuned on logs of at most so many samples.
+    """The same for a watch that is tuned on logs of at most so many samples: of no more than 20
+    minutes of them, or of 1200 where these take longer.
 
     Healthy samples of many hours make limits surer, and no watch slower: one that is tuned has no
     noise to learn from its first rows.
+
+    >>> tuned_bandwidth(1.0, 7200), round(tuned_bandwidth(1 / 30, 2880), 5)
+    (0.2, 0.00667)
     """
     return bandwidth_for(rate, min(samples, _LONGEST * max(rate, 1.0)))
 
