@@ -186,13 +186,13 @@ class SignalChecks:
 
     def _rests(self, last: Array, runs: Array, top: Array, bottom: Array) -> Mask:
         """Which signals may stand still: commands at an end of what they do, and sensors at theirs
-        while such a command has stood for as long: a machine that is switched off has no noise.
+        that came to rest with such a command: a machine that is switched off has no noise. A sensor
+        that dies while a command has stood at its end for long is none of these.
         """
         ends = ((last >= top) | (last <= bottom)) & (top > bottom)
         commands = ends & self._drive
-        longest = float(np.max(runs, where=commands, initial=0.0))
-        at_rest = ends & ~self._drive & (runs <= longest + _LEAST)
-        return np.asarray(commands | at_rest)
+        together = (np.abs(runs[:, None] - runs) <= _LEAST)[:, commands].any(axis=1)
+        return np.asarray(commands | (ends & together))
 
     def _begun(self, found: Mapping[str, Unusual], driven: Container[str]) -> list[Unusual]:
         """What is new; what has been away for some rows is over."""

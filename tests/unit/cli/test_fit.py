@@ -299,6 +299,10 @@ def test_options_take_numbers_by_name() -> None:
         package.compile(text=MODEL, parameters={"R": float("nan")})
     with pytest.raises(ValueError, match="no value `Q`"):
         assert package.compile(text=MODEL, parameters={"Q": 1.0}).graph
+    with pytest.raises(ValueError, match="negative"):
+        package.compile(text=MODEL, tolerances={"R": -0.1})
+    with pytest.raises(ValueError, match="no value `Q`"):
+        assert package.compile(text=MODEL, tolerances={"Q": 0.1}).graph
 
 
 def _biased(folder: Path, name: str, seed: int, offset: float) -> None:
@@ -389,32 +393,15 @@ def test_tolerances_go_from_logs_that_differ_to_the_thresholds(
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("[tolerances]\nR = 5\n", "1"),
-        ("[tolerances]\nR = -0.1\n", "0"),
-        ("[tolerances]\nQ = 0.1\n", "no parameter `Q`"),
-    ],
-)
-def test_a_wrong_tolerance_is_told(
-    bondgraph: Command, folder: Path, text: str, said: str
-) -> None:
-    (folder / "p.toml").write_text(text)
-    done = bondgraph("tune", "c.bg", "log.csv", "--parameters", "p.toml")
-    assert done.status == 1
-    assert said in done.err
-    assert "p.toml:2" in done.err
-    with pytest.raises(ValueError, match="negative"):
-        package.compile(text=MODEL, tolerances={"R": -0.1})
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
         ("[offsets]\nz = 1\n", "no sensor or input with an offset `z`"),
         ("[offsets]\ny = true\n", "quantity"),
         ('[offsets]\ny = "3 blah"\n', "blah"),
+        ("[tolerances]\nR = 5\n", "`R` is 5."),
+        ("[tolerances]\nR = -0.1\n", "`R` is -0.1."),
+        ("[tolerances]\nQ = 0.1\n", "no parameter `Q`"),
     ],
 )
-def test_a_wrong_offset_is_told(
+def test_a_wrong_offset_or_tolerance_is_told(
     bondgraph: Command, folder: Path, text: str, said: str
 ) -> None:
     (folder / "p.toml").write_text(text)

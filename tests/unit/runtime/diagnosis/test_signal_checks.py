@@ -202,6 +202,17 @@ def test_a_power_that_stands_still_while_the_fan_runs_is_told(seed: int) -> None
     assert one.since == pytest.approx(2650 * _STEP, abs=3 * _STEP)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_a_power_that_dies_while_the_fan_has_long_run_at_its_most_is_told(seed: int) -> None:
+    samples = _fan(seed)
+    samples[2100:, 0] = 0.8
+    samples[2100:, 1] = np.round(92.0 + 4.0 * np.random.default_rng(seed).normal(size=1900), 1)
+    samples[3300:, 1] = 0.0
+    told = [one for one in _fan_looked(samples, 1500) if one.kind == "stuck"]
+    assert [one.signal for one in told] == ["P"]
+    assert told[0].since == pytest.approx(3300 * _STEP, abs=3 * _STEP)
+
+
 def test_what_comes_back_soon_is_not_told_each_time() -> None:
     samples = _signals(8)
     samples[2000:4000:130, 2] += 3.0  # sixteen spikes, one in five rows
