@@ -645,10 +645,13 @@ class Compilation:
     @cached_property
     def thresholds(self) -> Program | None:
         """The program of the adaptive thresholds, None for a model without tolerances."""
+        return self._thresholds(self._shown[0])
+
+    def _thresholds(self, graph: BondGraph) -> Program | None:
         from bondgraph.passes.lowering.thresholds import thresholds
 
-        own = *self._shown[:2], self.program, self._lowering
-        return thresholds(*own, observers=self._followed)
+        own = self._shown[1], self.program, self._lowering
+        return thresholds(graph, *own, observers=self._followed)
 
     @cached_property
     def residual_units(self) -> dict[str, str]:
@@ -708,8 +711,18 @@ class Compilation:
         """The code of residuals and thresholds, to be loaded and run here; None without these."""
         from bondgraph.backends.runnable import runnable
 
-        bounds = self._bounds
+        bounds = self._bounds_of(self._known_starts)
         return runnable(self.program_with_readings), None if bounds is None else runnable(bounds)
+
+    @property
+    def _known_starts(self) -> Program | None:
+        """The thresholds of a machine whose unknown starts the samples tell, as a watch does."""
+        from bondgraph.runtime.diagnosis.remembered import memories
+
+        graph, residuals, _ = self._shown
+        found = memories(graph, residuals, self.program)
+        unknown = {name: 0.0 for memory in found for name in memory.unknown}
+        return self._thresholds(graph.with_tolerances(unknown)) if unknown else self.thresholds
 
     def engine(
         self, native: bool | None = None, tell: Callable[[str], None] | None = None
@@ -936,7 +949,9 @@ class Compilation:
     @property
     def _bounds(self) -> Program | None:
         """The thresholds if any residual has one; the report says why if none has."""
-        bounds = self.thresholds
+        return self._bounds_of(self.thresholds)
+
+    def _bounds_of(self, bounds: Program | None) -> Program | None:
         if bounds is not None and all(r.unavailable for r in bounds.residuals):
             return None
         return bounds

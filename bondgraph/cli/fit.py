@@ -142,6 +142,7 @@ def _result(compilation: Compilation, found: Fitted) -> dict[str, object]:
         "bandwidth": found.bandwidth,
         "spread": found.spread,
         "parameters": [{**p._asdict(), "interval": p.interval} for p in found.parameters],
+        "starts": [s._asdict() for s in found.starts],
         "offsets": [{**p._asdict(), "interval": p.interval} for p in found.offsets],
         "suspects": [s._asdict() for s in found.suspects],
         "correlation": found.correlation.tolist(),
@@ -225,6 +226,7 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
         within = [f"{100 * tolerance:.3g} %" if tolerance else ""] if narrower else []
         rows.append((name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit, *within))
     lines = [_message(compilation, found), "", *console.columns(rows)]
+    lines += _starts(found)
     lines += _tolerances(found, declared)
     if any(p.bound for p in found.parameters):
         names = ", ".join(p.name for p in found.parameters if p.bound)
@@ -251,6 +253,22 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
             more = " or more: no more is fitted, declare it in the model by `delay`"
             lines.append(f"  {delay.signal} comes {when} in the log{more if delay.bound else ''}")
     return [*lines, "", f"Written to {joined(files, 'and')}"]
+
+
+def _starts(found: Fitted) -> list[str]:
+    """Where each log begins, of what nobody knew it."""
+    names = list(dict.fromkeys(s.name for s in found.starts))
+    if not names:
+        return []
+    rows: list[tuple[str, ...]] = [("log", *(x for name in names for x in (name, "+- (95 %)")))]
+    for log in dict.fromkeys(s.log for s in found.starts):
+        row = [log]
+        for one in (s for s in found.starts if s.log == log):
+            sure = "not told" if one.interval is None else f"{one.interval:.2g}"
+            row += [f"{one.value:.6g}", sure]
+        rows.append(tuple(row))
+    return ["", "Where each log begins: no part of the file, a watch finds it anew",
+            *console.columns(rows)]  # fmt: skip
 
 
 def _tolerances(found: Fitted, declared: Mapping[str, float]) -> list[str]:

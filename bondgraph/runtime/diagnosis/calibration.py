@@ -29,12 +29,13 @@ from bondgraph.runtime.diagnosis.noise import (
     uncovered,
     within,
 )
-from bondgraph.runtime.diagnosis.remembered import from_the_start, up_to_gaps
+from bondgraph.runtime.diagnosis.remembered import up_to_gaps
 from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
 from bondgraph.runtime.diagnosis.shown_sizes import Shown, ShownSizes
 from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
+from bondgraph.runtime.diagnosis.unknown_starts import started
 from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
 from bondgraph.runtime.diagnosis.whole_thresholds import WholeThresholds
 from bondgraph.runtime.log import Array
@@ -103,7 +104,7 @@ def tune(
     held = np.array([limit.held for limit in limits(found, engine.residuals)])
     for k, log in enumerate(logs):
         least = int(work.lasts[k].min(initial=len(log)))
-        shows.add(log[:least], work.thresholds(held, work.lasts[k]))
+        shows.add(log[:least], work.thresholds(k, held))
         progress((len(logs) + k + 1) / total)
     lost = {n: s for n, s in zip(engine.residuals, work.lost.tolist(), strict=True) if s}
     whole = tuning._replace(shows=shows.by_fault(), window=window)
@@ -138,11 +139,12 @@ class _Work:
     ) -> None:
         self.engine = engine
         self.model = model
-        #: For how many samples of each log each residual knows its start.
-        self.lasts = [
-            from_the_start(engine, model.memories, log, own)
-            for log, own in zip(logs, later or (False,) * len(logs), strict=True)
-        ]
+        #: Of each log what runs it from its start, and for how many samples residuals know that.
+        self.engines, self.lasts = zip(
+            *(started(engine, model, log, own)
+              for log, own in zip(logs, later or (False,) * len(logs), strict=True)),
+            strict=True,
+        )  # fmt: skip
         far = [len(log) - own for log, own in zip(logs, self.lasts, strict=True)]
         self.lost = engine.sample_time * np.sum(far, axis=0, initial=0.0)
         sizes = Sizes(engine)
@@ -166,7 +168,7 @@ class _Work:
         """What each log tells, but for those that are no longer than the warm-up."""
         found = []
         for k, log in enumerate(logs):
-            own = self.noise(log, self.lasts[k])
+            own = self.noise(k, log)
             if own is not None:
                 found.append(own)
             progress(k + 1)
@@ -186,9 +188,10 @@ class _Work:
                 self.beside[k] = max(self.beside[k], CAREFUL * stepped(rows))
         return bool(self.walk.any())
 
-    def thresholds(self, held: Array, lasts: Array | None = None) -> WholeThresholds:
+    def thresholds(self, number: int, held: Array) -> WholeThresholds:
         """Those of a log that begins, where so much of what commands make is in the noise."""
-        return WholeThresholds(self.engine, self.model, self.tolerated, self.walk, held, lasts)
+        own = self.engines[number], self.model, self.tolerated
+        return WholeThresholds(*own, self.walk, held, self.lasts[number])
 
     def _parts(self, samples: Array) -> Iterator[Array]:
         """Whole rows of a log, some thousand samples at a time."""
@@ -203,35 +206,35 @@ class _Work:
         moved = Bank(copied(self.engine), gains, self.model.nominal).run(samples)
         return np.asarray(np.abs(moved).max(axis=(0, 1), initial=0.0))
 
-    def noise(self, samples: Array, lasts: Array | None = None) -> _Noise | None:
+    def noise(self, number: int, samples: Array) -> _Noise | None:
         """What is left once parameters are taken as they fit best inside their tolerances.
 
-        For as many samples as each residual `lasts`. None for a log that is not longer than the
-        warm-up.
+        For as many samples as each residual lasts in the log with this number. None for one that is
+        not longer than the warm-up.
         """
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
         start += -start % self.every  # the rows are those of a monitor, which begin with the log
         if len(samples) <= start + self.every:
             return None
         history = History(self.spread)
-        whole = next(self._chunks(samples[start:], samples[:start], lasts))[0].value
+        whole = next(self._chunks(samples[start:], samples[:start], number))[0].value
         rough = np.std(np.diff(whole[:: self.every], axis=0), axis=0)
         weight = 1.0 / np.maximum(rough, self.least + _NOTHING) ** 2
         every, peaks = [], []
-        for batch, slopes, doubt in self._chunks(samples[start:], samples[:start], lasts):
+        for batch, slopes, doubt in self._chunks(samples[start:], samples[:start], number):
             for k, row, peak in self._rows(batch, slopes, doubt):
                 history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
                 every.append(row)
                 peaks.append(peak)
         found = history.fit_within()
         # a residual with fewer stages than others is watched while these warm up
-        early = list(self._chunks(samples[:start], samples[:0], lasts))
+        early = list(self._chunks(samples[:start], samples[:0], number))
         excess = [_beyond(chunk[0]) for chunk in early]
         first = [own for chunk in early for own in self._rows(*chunk)]
         rest, spaced = [], []
         rows = sum(int(batch.valid.all(axis=1).sum()) for batch, _, _ in early)
         bound = np.zeros(len(self.engine.residuals))
-        for batch, slopes, _ in self._chunks(samples[start:], samples[:start], lasts):
+        for batch, slopes, _ in self._chunks(samples[start:], samples[:start], number):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)
             rest.append(np.where(batch.valid, left, np.nan))
             spaced.append(rest[-1][self.every - 1 :: self.every])
@@ -265,10 +268,10 @@ class _Work:
             yield k, row._replace(average=mean), _beyond(Batch(value, valid, bound))
 
     def _chunks(
-        self, samples: Array, before: Array, lasts: Array | None
+        self, samples: Array, before: Array, number: int
     ) -> Iterator[tuple[Batch, Array, Array]]:
         """Residuals, slopes of what is tolerated, and doubt, some thousand samples at a time."""
-        whole = self.thresholds(self.free, lasts)
+        whole = self.thresholds(number, self.free)
         whole.run(before)
         for part in self._parts(samples):
             yield whole.run(part)

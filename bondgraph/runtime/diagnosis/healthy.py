@@ -95,7 +95,7 @@ def diagnosis_model(
         units(graph),
         sees,
         grouped(matrix, modes, known),
-        memories(program),
+        memories(graph, residuals, program),
         _natures(graph, residuals, program),
         known,
         doubles,

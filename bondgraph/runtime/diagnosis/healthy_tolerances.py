@@ -41,8 +41,8 @@ def with_room(
         return found
     share, logs = np.zeros(len(engine.residuals)), _less_offsets(found, engine, pieces)
     for bandwidth in sorted(set(bandwidths)):
-        own = engine.configured(found.values, bandwidth=bandwidth)
-        share = np.maximum(share, _needed(own, logs, found.noise, memories))
+        own = engine.configured(bandwidth=bandwidth)
+        share = np.maximum(share, _needed(own, found, logs, memories))
     needed: dict[str, float] = {}
     for k, name in enumerate(engine.residuals):
         for fault in sees.get(name, ()):
@@ -79,31 +79,32 @@ def _less_offsets(
 
 def _needed(
     engine: Engine,
+    found: Fitted,
     logs: Sequence[tuple[str, Array]],
-    noise: Mapping[str, float],
     memories: Sequence[Memory],
 ) -> Array:
     """The largest share of its threshold that each residual needed, infinite without any.
 
-    What the `noise` of the sensors makes is measured: it comes on top once more.
+    What the noise of the sensors makes is measured: it comes on top once more.
     """
     draw = np.random.default_rng(1)
-    deviation = np.array([noise.get(k.path, 0.0) for k in engine.signals])
+    deviation = np.array([found.noise.get(k.path, 0.0) for k in engine.signals])
     parts: list[tuple[Array, Array, Array]] = []
     seen: set[str] = set()
     for name, samples in logs:
         louder = samples + deviation * draw.standard_normal(samples.shape)
-        twice = [_run(engine, own) for own in (samples, louder)]
+        fitted = engine.configured(found.of_log(name))
+        twice = [_run(fitted, own) for own in (samples, louder)]
         known = from_the_start(engine, memories, samples, later=name in seen)
         valid = twice[0].valid & twice[1].valid & (np.arange(len(samples))[:, None] < known)
         value, more = (np.where(valid, one.value, math.nan) for one in twice)
         parts.append((value, more - value, twice[0].bound))
         seen.add(name)
     value, added, bound = (np.concatenate(own) for own in zip(*parts, strict=True))
-    found = []
-    for k, good in enumerate(np.isfinite(value).T):
-        found.append(_share(value[good, k], added[good, k], bound[good, k], engine))
-    return np.array(found)
+    return np.array([
+        _share(value[good, k], added[good, k], bound[good, k], engine)
+        for k, good in enumerate(np.isfinite(value).T)
+    ])  # fmt: skip
 
 
 def _run(engine: Engine, samples: Array) -> Batch:

@@ -17,6 +17,7 @@ from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.plain import array, numbers
+from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
 _HOLD = 3  # warm-ups that a start is told before the first sample: encoders may jump far
@@ -64,8 +65,8 @@ class _Group:
         self.counters = [at for at in self.signals if engine.signals[at].counts is not None]
         self.starts: tuple[Hypothesis, ...] = ()  # that were estimated, and their covariance
         self.spread: Array = np.zeros((0, 0))
-        self.fresh = True  # no sample yet: the model says where it begins
-        self.restart(waiting=False)
+        self.fresh = not memory.unknown  # no sample yet: the model says where it begins
+        self.restart(waiting=not self.fresh)
 
     def restart(self, waiting: bool = True) -> None:
         """Nothing is known of the samples to come."""
@@ -84,10 +85,10 @@ class _Group:
 class Origins:
     """Watches breaks in the samples, and looks for the starts that they make unknown.
 
-    At the very first sample positions are what the model says. After a break, where encoders have
-    gone on, they still count from where they did. Otherwise residuals that depend on it wait, until
-    the samples since the break tell what their first one should have been, or for so long that
-    some start has to do.
+    At the very first sample positions are what the model says, but for those that it does not know.
+    After a break, where encoders have gone on, they still count from where they did. Otherwise
+    residuals that depend on it wait, until the samples since the break tell what their first one
+    should have been, or for so long that some start has to do.
     """
 
     def __init__(self, engine: Engine, memories: Sequence[Memory], every: int) -> None:
@@ -122,9 +123,15 @@ class Origins:
             found[group.residuals] = True
         return found
 
-    def unknown(self, of: Mask) -> list[str]:
-        """The signals whose start these residuals wait for."""
-        return [s for g in self._groups if of[g.residuals].any() for s in g.memory.signals]
+    def unknown(self, of: Mask) -> str:
+        """What these residuals wait for, in words: by the parameters of starts, or by signals."""
+        own = [g.memory for g in self._groups if of[g.residuals].any()]
+        named = list(dict.fromkeys(name for memory in own for name in memory.unknown))
+        began = [name for memory in own if not memory.unknown for name in memory.signals]
+        verb = "is" if len(named) == 1 else "are"
+        said = [f"what {listed(named, 'and')} {verb}"] if named else []
+        said += [f"where {listed(began, 'and')} began"] if began else []
+        return listed(said, "and")
 
     # --------------------------------------------------------------------- breaks
 

@@ -184,16 +184,33 @@ class Suspect(NamedTuple):
     share: float
 
 
+class Start(NamedTuple):
+    """What the parameter of an unknown start is in one log; `error` None where that cannot tell."""
+
+    name: str
+    log: str
+    value: float
+    error: float | None
+    unit: str
+
+    @property
+    def interval(self) -> float | None:
+        """Half of the interval that has the truth in 95 of 100 cases."""
+        return None if self.error is None else _SURE * self.error
+
+
 class Fitted(NamedTuple):
     """Parameters from so many `logs`; `noise` by signal, as seen or given, `seconds` of use.
 
-    `offsets` are those of signals that were asked for, with a nominal value of zero; `suspects`
+    `starts` are where logs begin that nobody knows: of each log it is its own. `offsets` are those
+    of signals that were asked for, with a nominal value of zero; `suspects`
     others that would explain what is left, the most likely one first. The filter was of this
     `bandwidth` (rad/s); with it the relative errors of all that is fitted are in the geometric mean
     exp(`spread`), what no log tells among them.
     """
 
     parameters: tuple[Fitting, ...]
+    starts: tuple[Start, ...]
     offsets: tuple[Fitting, ...]
     suspects: tuple[Suspect, ...]
     combinations: tuple[Combination, ...]
@@ -211,6 +228,10 @@ class Fitted(NamedTuple):
     def values(self) -> dict[str, float]:
         """The fitted values of parameters in SI units, by name."""
         return {p.name: p.value for p in self.parameters}
+
+    def of_log(self, log: str) -> dict[str, float]:
+        """The fitted values with those of the starts of one log."""
+        return {**self.values, **{s.name: s.value for s in self.starts if s.log == log}}
 
     @property
     def tolerances(self) -> dict[str, float]:
@@ -285,12 +306,12 @@ def fit(
         for k, name in enumerate(names)
     )  # fmt: skip
     late = at[count:]
-    called = [*free.parameters, *(f"offset of {n}" for n in free.offsets)]
+    called = [*names[: count - len(free.offsets)], *(f"offset of {n}" for n in free.offsets)]
     zeros = np.where(problem.zeros, problem.scale, 0.0)
-    more = partial(_more, covariance)
     found = combinations(
-        called, values, problem.scale, zeros, null, partial(problem.cost, late), more
-    )
+        called, values, problem.scale, zeros, null, partial(problem.cost, late),
+        partial(_more, covariance),
+    )  # fmt: skip
     suspects = problem.suspects(at, units)
     progress(1.0)
     apart = np.where(deviation > 0, deviation, 1.0)
@@ -301,9 +322,13 @@ def fit(
             runs.names(runs.late), late.tolist(), np.diag(whole)[count:].tolist(), strict=True
         )
     )
-    split = len(free.parameters)
+    split, more = len(free.parameters), len(free.parameters) + len(runs.starts)
+    starts = tuple(
+        Start(name, log, one.value, one.error, units.get(name, ""))
+        for (name, log), one in zip(runs.starts.values(), own[split:more], strict=True)
+    )
     return Fitted(
-        own[:split], own[split:], suspects, found, left, delays, seen, runs.seconds,
+        own[:split], starts, own[more:], suspects, found, left, delays, seen, runs.seconds,
         covariance / np.outer(apart, apart), problem.terms(at), engine.bandwidth,
         float(np.linalg.slogdet(covariance)[1]) / (2.0 * count),
         len({name for name, _ in pieces}),
@@ -338,7 +363,8 @@ def fittable(
         elif name not in names and name in engine.parameters and name not in faults:
             raise ValueError(
                 f"{name} is used by no law, but for where something begins or for other numbers:"
-                " that cannot be fitted, say what it is in these logs (--set)"
+                " say what it is in these logs (--set); a start that nobody knows is found for"
+                " each log by itself once the model gives it a tolerance"
             )
         elif name not in names:
             close = get_close_matches(name, [*names, *signals], 3, 0.5)
@@ -420,12 +446,13 @@ class _Problem:
     def __init__(
         self, runs: ResidualRows, free: Wanted, tolerances: Mapping[str, float]
     ) -> None:
-        self._runs, self._free = runs, free.parameters
-        self.names = (*free.parameters, *free.offsets)
+        self._runs, self._free = runs, (*free.parameters, *runs.starts)
+        self._shared = len(free.parameters)  # those of all logs stand first
+        self.names = (*self._free, *free.offsets)
         biased = runs.names(runs.biased)
         self._offset_at = [biased.index(n) for n in free.offsets]
         self._sizes = runs.sizes(runs.biased)
-        declared = [runs.engine.parameters[n] for n in free.parameters]
+        declared = [runs.declared(n) for n in self._free]
         known = [runs.engine.signals[runs.biased[k]].offset for k in self._offset_at]
         self.nominal = np.array(declared + known)
         self.zeros = self.nominal == 0
@@ -435,6 +462,8 @@ class _Problem:
         self._low = np.full(self.size, -np.inf)
         self._high = np.full(self.size, np.inf)
         for k, value in enumerate(self.nominal):
+            if self.names[k] in runs.starts:
+                continue  # on whichever side it begins
             if value > 0:
                 self._low[k] = _SMALLEST - 1.0
             elif value < 0:
@@ -457,7 +486,7 @@ class _Problem:
         self.scale[zeros] = 1.0
         nothing = np.zeros(self.size)
         values = [self._numbers(nothing), *[{self._free[k]: 1.0} for k in zeros]]
-        small = {n: v * _STEP for n, v in values[0].items()}
+        small = {n: _STEP * values[0][n] for n in self._free[: self._shared]}
         still = np.zeros((len(values) + 1, len(self._runs.late) + len(self._runs.biased)))
         late, off = np.split(still, [len(self._runs.late)], axis=1)
         clean, added = self._runs.rows([*values, small], late, off)
@@ -752,7 +781,7 @@ class _Problem:
 
     def _terms(self, at: Array) -> tuple[Array, Array]:
         """The residuals, (rows, residuals), and of each parameter the term with it in them."""
-        count = len(self._free)
+        count = self._shared
         around = [at + s * _STEP * np.eye(len(at))[k] for k in range(count) for s in (1, -1)]
         clean = self._rows([at, *around])[0]
         share = (self.values(at) / self.scale)[:count, None, None]
@@ -760,7 +789,7 @@ class _Problem:
 
     def terms(self, at: Array) -> tuple[Terms, ...]:
         """Each residual as the term with the parameter that makes most of it, and all others."""
-        runs, count = self._runs, len(self._free)
+        runs, count = self._runs, self._shared
         value, parts = self._terms(at)
         found, pieces = [], runs.times()
         for log in dict.fromkeys(name for name, _, _ in pieces):

@@ -7,7 +7,10 @@ from typing import TypeAlias
 
 import numpy as np
 
+from bondgraph.ir.expr import Expr, Op, Symbol, below, symbols
+from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Expression, Program, Ref, Sum, flat
+from bondgraph.ir.residuals import ResidualSet
 from bondgraph.notation.walk import references
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
@@ -23,22 +26,57 @@ class Memory(NamedTuple):
 
     `signals` are those of whose first sample something stays for ever, `reads` all that may start
     the residuals anew by having no value; both are paths. `integral` says that what stays is a sum
-    over all samples since: no later reading tells it.
+    over all samples since: no later reading tells it. `unknown` are the parameters that say where
+    it begins and have a tolerance: each log begins elsewhere.
     """
 
     residuals: tuple[str, ...]
     signals: tuple[str, ...]
     reads: tuple[str, ...]
     integral: bool = False
+    unknown: tuple[str, ...] = ()
 
 
-def memories(program: Program) -> tuple[Memory, ...]:
+def memories(graph: BondGraph, residuals: ResidualSet, program: Program) -> tuple[Memory, ...]:
     """The memories of a program, none of them with a signal or a residual of another one.
 
     A residual remembers the start of an encoder whose counts it adds up, of whatever it has put
     down with its first sample and compares with ever since, and of what it integrates. Residuals
     that share filters start anew together.
     """
+    found = _memories(program)
+    reads = {i.name: _starts(graph, r.expr, bool(i.follows))
+             for r, i in zip(residuals.residuals, program.residuals, strict=True)}  # fmt: skip
+    lasting = {r for memory in found for r in memory.residuals}
+    fading = frozenset[str]().union(*[own for r, own in reads.items() if r not in lasting])
+    return tuple(
+        m._replace(unknown=tuple(sorted(set().union(*[reads[r] for r in m.residuals]) - fading)))
+        for m in found
+    )
+
+
+def _starts(graph: BondGraph, relation: Expr, follows: bool) -> frozenset[str]:
+    """The parameters with a tolerance that a relation reads only as where something begins.
+
+    What an observer reads so nobody asks: it `follows` the machine from wherever that begins.
+    """
+    own = {v.symbol: v.name for v in graph.values if v.tolerance and not v.fault}
+    if not own or follows:
+        return frozenset(own.values())
+    behind = graph.initial_values()
+    behind |= {v.symbol.symbol: v.value for v in graph.values if v.value is not None}
+    todo = [n.symbol for n in below([relation]) if n.op is Op.INT]
+    found: dict[Symbol, None] = {}
+    while todo:
+        symbol = todo.pop()
+        if symbol not in found:
+            found[symbol] = None
+            todo += [s.symbol for s in symbols(behind[symbol])] if symbol in behind else []
+    return frozenset(name for node, name in own.items() if node.symbol in found)
+
+
+def _memories(program: Program) -> tuple[Memory, ...]:
+    """As `memories`, whatever is known of where they begin."""
     work = _Work(program)
     reached = {r.name: work.reached(r.name) for r in program.residuals if not r.unavailable}
     joined = _joined({name: {n for n in r if n[0] != "known"} for name, r in reached.items()})

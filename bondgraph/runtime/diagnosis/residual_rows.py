@@ -42,6 +42,12 @@ class ResidualRows:
         memories: Sequence[Memory] = (),
     ) -> None:
         self.engine = engine
+        #: Starts that nobody knows, each with its parameter and the log that begins there.
+        self.starts = {
+            f"{name} in {log}": (name, log)
+            for name in dict.fromkeys(n for memory in memories for n in memory.unknown)
+            for log in dict.fromkeys(log for log, _ in pieces)
+        }
         time = engine.sample_time
         self.every = max(1, round(_APART / engine.bandwidth / time))
         self.skip = math.ceil(engine.warm_up / time / self.every) + 1
@@ -131,6 +137,7 @@ class ResidualRows:
     ) -> tuple[Array, Array]:
         """Residuals and what noise adds to them, both (sets of parameters, rows, residuals).
 
+        Among the parameters of a set are the `starts`, by what they are called there.
         `delays` (sets, signals in `late`) in samples, `offsets` (sets, signals in `biased`) in the
         units of these, of which logs are cleared. NaN where a residual is not valid, and in one row
         behind every log.
@@ -154,11 +161,30 @@ class ResidualRows:
         off: Mapping[int, float],
     ) -> tuple[Array, Array]:
         clean, added = [], []
-        for samples, shaken, lasts in zip(self.pieces, self._shaken, self._lasts, strict=True):
-            one = self._through(parameters, _moved(samples, late, off), samples, lasts)
-            clean.append(one)
-            added.append(self._through(parameters, _moved(shaken, late, off), samples, lasts) - one)
+        every = zip(self.begins, self.pieces, self._shaken, self._lasts, strict=True)
+        for (log, _), samples, shaken, lasts in every:
+            own = [self._of(log, numbers) for numbers in parameters]
+            each = {tuple(numbers.items()): None for numbers in own}  # of other logs is other
+            which = [list(each).index(tuple(numbers.items())) for numbers in own]
+            few = [dict(numbers) for numbers in each]
+            one = self._through(few, _moved(samples, late, off), samples, lasts)
+            more = self._through(few, _moved(shaken, late, off), samples, lasts) - one
+            clean.append(one[which])
+            added.append(more[which])
         return np.concatenate(clean, axis=1), np.concatenate(added, axis=1)
+
+    def _of(self, log: str, numbers: Mapping[str, float]) -> dict[str, float]:
+        """The parameters of one log, under their names in the model."""
+        own = {}
+        for name, value in numbers.items():
+            called, where = self.starts.get(name, (name, log))
+            if where == log:
+                own[called] = value
+        return own
+
+    def declared(self, name: str) -> float:
+        """The nominal value of a parameter, or of one of the `starts`."""
+        return self.engine.parameters[self.starts.get(name, (name, ""))[0]]
 
     def _through(
         self,

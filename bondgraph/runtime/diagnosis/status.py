@@ -109,7 +109,7 @@ class WatchStatus:
             out.append(Verdict("invalid", time, message=self._waiting(lost, origins)))
         known = np.isfinite(noise)
         if (over & known).any():
-            message = f"{self._watched(over & known)}: where their positions began is known"
+            message = f"{self._watched(over & known)}: where they began is known"
             out.append(Verdict("warm-up", time, message=message))
         if (over & ~known).any():
             message = self._learning(time, over & ~known)
@@ -138,6 +138,7 @@ class WatchStatus:
                 message += " (bondgraph fit), or a fault was there from the start"
                 if (off & found.declared).any():
                     message += ", or what is added up began elsewhere than the model declares"
+                    message += " (where nobody knows it, give the parameter of it a tolerance)"
             out.append(Verdict("warm-up", time, message=message))
         hopeless = found.hopeless
         lost = hopeless & ~self._hopeless
@@ -167,5 +168,5 @@ class WatchStatus:
 
     def _waiting(self, of: Mask, origins: Origins) -> str:
         verb = "waits" if of.sum() == 1 else "wait"
-        where = f"where {listed(origins.unknown(of), 'and')} began"
-        return f"{self.names(of)} {verb} until the machine has shown by its motion {where}"
+        unknown = origins.unknown(of)
+        return f"{self.names(of)} {verb} until the machine has shown by its motion {unknown}"

@@ -398,7 +398,7 @@ def test_rows_are_those_of_a_watch_of_the_same_log() -> None:
     assert start % every  # not by chance
     log = np.tile([_R * _I, _I], (_COUNT, 1))
     log[:, 1] += np.random.default_rng(5).normal(0.0, _NOISE, _COUNT)
-    found = _Work(engine, model().diagnosis_model, [log]).noise(log)
+    found = _Work(engine, model().diagnosis_model, [log]).noise(0, log)
     assert found is not None and found.rows == pytest.approx(_COUNT - start, abs=1)
     time = np.arange(_COUNT) * _STEP
     rows = [own for own in to_row_ends(time, _STEP, every) if own.stop - own.start == every]
