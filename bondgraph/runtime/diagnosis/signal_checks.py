@@ -126,6 +126,8 @@ class SignalChecks:
         self._last = np.empty((0, len(self._names)))
         self._steered = np.empty((0, len(self._steer)))  # commands and modes of these samples
         self._run = np.zeros(len(self._names))
+        self._tail = np.empty((0, len(self._names)))
+        self._path = np.full((_LEAST, len(self._names)), math.nan)  # before each stood still last
         #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
         self._loud = np.zeros((_AFTER, 2, len(self._names)), dtype=np.bool_)
         self._encoders.restart()
@@ -186,13 +188,18 @@ class SignalChecks:
 
     def _rests(self, last: Array, runs: Array, top: Array, bottom: Array) -> Mask:
         """Which signals may stand still: commands at an end of what they do, and sensors at theirs
-        that came to rest with such a command: a machine that is switched off has no noise. A sensor
-        that dies while a command has stood at its end for long is none of these.
+        that came to rest with such a command, or ran out behind it: a machine that is switched off
+        has no noise. A sensor that dies while a command has stood at its end for long is none of
+        these.
         """
         ends = ((last >= top) | (last <= bottom)) & (top > bottom)
         commands = ends & self._drive
         together = (np.abs(runs[:, None] - runs) <= _LEAST)[:, commands].any(axis=1)
-        return np.asarray(commands | (ends & together))
+        # or ran out: to its end and never away from it, as noise goes, and without a leap
+        steps = np.sign(last - self._path[0]) * np.diff(self._path, axis=0, append=last[None])
+        ran_out = (steps >= 0.0).all(axis=0) & (steps.max(axis=0) > 0.0) & commands.any()
+        ran_out &= steps[-1] <= steps[:-1].max(axis=0)
+        return np.asarray(commands | (ends & (together | ran_out)))
 
     def _begun(self, found: Mapping[str, Unusual], driven: Container[str]) -> list[Unusual]:
         """What is new; what has been away for some rows is over."""
@@ -278,6 +285,12 @@ class SignalChecks:
         ran = number - np.concatenate([-self._run[None], turns[:-1]])
         ended = np.where(same, 0.0, ran).max(axis=0)
         self._run = len(own) - turns[-1]
+        both = np.concatenate([self._tail, own])
+        begins = np.where(self._run <= len(own), len(both) - self._run, 0.0).astype(int)
+        fresh = begins >= _LEAST
+        behind = np.maximum(begins + np.arange(-_LEAST, 0)[:, None], 0)
+        self._path[:, fresh] = np.take_along_axis(both, behind, axis=0)[:, fresh]
+        self._tail = both[-_LEAST:]
         return self._run.copy(), ended, 1.0 - same.mean(axis=0)
 
     def _first(self, own: Array, healthy: bool) -> None:

@@ -194,6 +194,22 @@ def test_a_machine_that_is_switched_on_or_off_is_neither_noisy_nor_stuck(
 
 
 @pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("dies", [False, True])
+def test_a_rotor_that_runs_out_is_not_stuck_and_one_that_is_told_to_stand_is(
+    seed: int, dies: bool
+) -> None:
+    """Friction stops it 3 s behind its command, and no noise is left; what dies reads 0 before."""
+    t, draw = np.arange(4000) * _STEP, np.random.default_rng(seed)
+    on = np.where(t < 27.0, 1.0 + 0.3 * np.sin(0.5 * t), 0.0)
+    speed = np.where(t < 27.0, 60.0 * on, np.maximum(22.0 * (30.0 - t), 0.0))
+    speed = np.round(speed * (1.0 + 0.01 * draw.normal(size=4000) * (t < 27.0)), 1)
+    if dies:
+        speed[t >= 28.2] = 0.0
+    told = [one for one in _fan_looked(np.column_stack([on, speed])) if one.kind == "stuck"]
+    assert [one.signal for one in told] == (["P"] if dies else [])
+
+
+@pytest.mark.parametrize("seed", range(5))
 def test_a_power_that_stands_still_while_the_fan_runs_is_told(seed: int) -> None:
     samples = _fan(seed)
     samples[2650:, 1] = samples[2650, 1]
