@@ -63,7 +63,8 @@ class Hypothesis(NamedTuple):
     `value`: a parameter has another value; `offset`: a signal is wrong by a constant (an encoder
     has slipped); `gain`: a signal is wrong by a share of itself (an encoder misses counts);
     `drift`: an encoder misses so many counts a second, another sensor goes away at such a rate;
-    `start`: only the first sample of a signal is, so that what is remembered of it is wrong;
+    `start`: only the first sample of a signal is, so that what is remembered of it is wrong, or the
+    parameter that says where something begins;
     `stuck`: what acts is `held` at a position, whatever is told, which has no size but 1. `unit` is
     that of the change, `usual` the size that is expected of it before anything is seen.
     A wrong sensor is so for who measures with it: a law that uses its reading acted on just this
@@ -83,8 +84,11 @@ class Hypothesis(NamedTuple):
 class _Lane:
     """One hypothesis of a bank: engines at both ends of its slope, and since when it holds."""
 
-    def __init__(self, hypothesis: Hypothesis, ends: tuple[float, float]) -> None:
+    def __init__(
+        self, hypothesis: Hypothesis, ends: tuple[float, float], value: float | None
+    ) -> None:
         self.hypothesis, self.ends = hypothesis, ends
+        self.value = value  # of the parameter that is another, None where it is what is told
         self.engines: list[Engine | None] = []  # None for an end at the machine as it is
         self.begin: Array | None = None  # the sample before the first: where encoders count from
         self.age = 0  # samples so far
@@ -109,13 +113,13 @@ class _Plan(NamedTuple):
 def _plan(lanes: Sequence[_Lane]) -> _Plan:
     apart = np.array([lane.ends[0] - lane.ends[1] for lane in lanes])[:, None, None]
     plan = _Plan([], [], [], np.full((len(lanes), 2), -1, dtype=np.intp), apart)
-    order = sorted(range(len(lanes)), key=lambda k: lanes[k].hypothesis.kind != "value")
+    order = sorted(range(len(lanes)), key=lambda k: lanes[k].value is None)
     for k in order:
         lane = lanes[k]
         for side, (end, engine) in enumerate(zip(lane.ends, lane.engines, strict=True)):
             if engine is None:
                 continue
-            if lane.hypothesis.kind != "value":
+            if lane.value is None:
                 plan.told.append((lane, end))
             plan.ends[k, side] = len(plan.engines)
             plan.engines.append(engine)
@@ -153,17 +157,20 @@ class Bank:
         self._plan = _plan(self._lanes)
 
     def _lane(self, hypothesis: Hypothesis, change: float | None, begin: Array | None) -> _Lane:
-        step = self._step(hypothesis)
-        of_value, start = hypothesis.kind == "value", hypothesis.kind == "start"
-        little = of_value or not (start or self._counts(hypothesis))
+        step, fault, value = self._step(hypothesis), hypothesis.fault, None
+        if hypothesis.kind == "value":
+            value = self._nominal[fault]
+        elif fault not in self._place:
+            value = self.engine.parameters[fault]
+        start = hypothesis.kind == "start"
+        little = value is not None or not (start or self._counts(hypothesis))
         tangent = (step, 0.0) if little else (step, -step)
-        lane = _Lane(hypothesis, tangent if change is None else (0.0, -change))
+        lane = _Lane(hypothesis, tangent if change is None else (0.0, -change), value)
         lane.begin = begin
-        fault = hypothesis.fault
         for end in lane.ends:
             one = None
             if end:
-                own = {fault: self._nominal[fault] + end} if of_value else None
+                own = {fault: value + end} if value is not None else None
                 one = self.engine.configured(own, bounds=False)
                 one.follow(self.engine)
             lane.engines.append(one)
@@ -182,7 +189,8 @@ class Bank:
         return max(1.0, round(hypothesis.usual)) if counts else _STEP * hypothesis.usual
 
     def _counts(self, hypothesis: Hypothesis) -> bool:
-        return self.engine.signals[self._place[hypothesis.fault]].counts is not None
+        at = self._place.get(hypothesis.fault)
+        return at is not None and self.engine.signals[at].counts is not None
 
     def reset(self) -> None:
         """Forget all samples."""

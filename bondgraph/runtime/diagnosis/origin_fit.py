@@ -20,6 +20,8 @@ _SPREAD = 3.0  # standard deviations that a start may be off by
 _LOCAL = 2.0  # counts that a slope is taken over, at least
 _FINE = 2.0**-6  # of the size of a signal: the smallest change of its start that is tried
 _OCTAVES = 22  # from there to the largest one
+_FINEST = 2.0**-16  # the same of a parameter that says where something begins, of its value
+_FEWER = 20  # from there to the largest one: sixteen times its value
 _PARTS = 32  # of a turn, so that laws that turn are not stepped over
 _VALLEYS = 6  # places with small residuals from which the smallest are looked for
 _EXACT = 1e-6  # of a start that is no count: nearer it need not be known
@@ -33,18 +35,20 @@ _OTHER = 0.3  # share of its slope by which a further start does something else
 class Case(NamedTuple):
     """What has been seen since a break, and what was known before.
 
-    `own` are the residuals that remember, `signals` the columns of those whose start they remember.
-    `start` is the first sample as engines are told it. `gone` are the tolerated parameters that
-    the break makes unknown, `starts` those of them that are starts. `limit` is what a residual may
-    have above its adaptive threshold, `sigma` its noise. `reach` is how far an encoder has come, in
-    counts, `steep` (residuals, signals) the largest slopes that were seen before; with no more
-    doubt than `known` a start is of use. `hold` samples are told between the start and the first
-    sample, `warm` ones pass before residuals are valid.
+    `own` are the residuals that remember. `start` is the first sample as engines are told it, and
+    behind it the values of the `parameters` of starts; `places` are those of both that are unknown.
+    `gone` are the tolerated parameters that the break makes unknown, `starts` those of them that
+    are starts. `limit` is what a residual may have above its adaptive threshold, `sigma` its noise.
+    `reach` is how far an encoder has come, in counts, `steep` (residuals, signals and parameters)
+    the largest slopes that were seen before; with no more doubt than `known` a start is of use.
+    `hold` samples are told between the start and the first sample, `warm` ones pass before
+    residuals are valid.
     """
 
     engine: Engine
     own: Sequence[int]
-    signals: Sequence[int]
+    places: Sequence[int]
+    parameters: Sequence[str]
     start: Array
     rows: Sequence[Row]
     tolerated: tuple[Hypothesis, ...]
@@ -59,6 +63,18 @@ class Case(NamedTuple):
     known: float
     hold: int
     warm: int
+
+    def told(self, start: Array) -> tuple[Array, dict[str, float]]:
+        """The first sample, (1, signals), and the parameters of such a start."""
+        first, values = np.split(start, [len(self.engine.signals)])
+        return first[None], dict(zip(self.parameters, values.tolist(), strict=True))
+
+    def begun(self, start: Array, bounds: bool = True) -> Engine:
+        """The engine behind such a start."""
+        first, own = self.told(start)
+        engine = self.engine.configured(own, bounds=bounds)
+        engine.run(first)
+        return engine
 
 
 class Fit(NamedTuple):
@@ -82,10 +98,11 @@ class Fit(NamedTuple):
 
 def replayed(case: Case, start: Array, tolerated: tuple[Hypothesis, ...]) -> tuple[Bank, list[Row]]:
     """The rows again, as residuals would have had them that began with another first sample."""
-    bank = Bank(case.engine.configured(), tolerated, case.nominal)
+    told, parameters = case.told(start)
+    bank = Bank(case.engine.configured(parameters), tolerated, case.nominal)
     bank.reset()
     first = case.rows[0].samples[:1]
-    bank.run(start[None])
+    bank.run(told)
     length = max(len(row.samples) for row in case.rows)
     for _ in range(-(-case.hold // length)):
         bank.run(np.repeat(first, length, axis=0))
@@ -130,14 +147,15 @@ class _Trial:
 
     def __init__(self, case: Case) -> None:
         self._case = case
-        self._engine = case.engine.configured(bounds=False)
         self._samples = np.concatenate([row.samples for row in case.rows])
         ends = np.cumsum([len(row.samples) for row in case.rows])
         self._ends = ends[ends > case.warm] - 1
         self._own = list(case.own)
         self._limit = case.limit[self._own]
-        self._counts = [k.counts for k in case.engine.signals]
+        self._many = len(case.engine.signals)
+        self._counts = [k.counts for k in case.engine.signals] + [None] * len(case.parameters)
         size = np.sqrt(np.nanmean(np.square(self._samples), axis=0))
+        size = np.append(size, np.abs([case.engine.parameters[p] for p in case.parameters]))
         self._size = np.where(size > 0, size, 1.0)
 
     @property
@@ -147,29 +165,33 @@ class _Trial:
 
     def values(self, change: Array) -> Array:
         """The residuals, (rows, own), when the start is changed by that much."""
-        engine = self._engine
-        engine.reset()
-        engine.run((self._case.start + change)[None])
+        engine = self._case.begun(self._case.start + change, bounds=False)
         if self._case.hold:
             engine.run(np.repeat(self._samples[:1], self._case.hold, axis=0))
         return np.asarray(engine.run(self._samples).value[self._ends][:, self._own])
 
+    def counted(self, at: int) -> bool:
+        """Whether a start is that of an encoder."""
+        return self._counts[at] is not None
+
     def unit(self, at: int) -> float:
         """The smallest change of a start that is worth trying."""
-        return 1.0 if self._counts[at] is not None else _FINE * float(self._size[at])
+        if self.counted(at):
+            return 1.0
+        return (_FINE if at < self._many else _FINEST) * float(self._size[at])
 
     def most(self, at: int) -> float:
         """The largest one."""
         turn = self._counts[at]
         if turn is None:
-            return self.unit(at) * 2.0**_OCTAVES
+            return self.unit(at) * 2.0 ** (_OCTAVES if at < self._many else _FEWER)
         return max(turn / 2, 2.0 * float(self._case.reach[at]))
 
     def order(self) -> list[int]:
         """The signals whose start makes a difference, the one that can be set most finely first."""
         effects = {}
         nothing = self.values(np.zeros(len(self._case.start)))
-        for at in self._case.signals:
+        for at in self._case.places:
             step = np.zeros(len(self._case.start))
             step[at] = 1024.0 * self.unit(at)
             effect = float(np.abs((self.values(step) - nothing) / self._limit).max(initial=0.0))
@@ -249,8 +271,7 @@ class _Trial:
         before = self._case.steep[np.ix_(self._own, list(signals))].T
         seen = np.concatenate([slopes, before[:, None]], axis=1)
         moved = np.sqrt(np.einsum("str,su,utr->tr", seen, spread, seen)).max(axis=0)
-        engine = self._case.engine.configured()
-        engine.run((self._case.start + change)[None])
+        engine = self._case.begun(self._case.start + change)
         bound = engine.run(self._samples).bound[self._ends][:, self._own]
         allowed = self._limit + np.median(bound, axis=0)
         return bool((_SPREAD * moved > _VAIN * self._case.known * allowed).any())
@@ -309,7 +330,7 @@ def _valleys(scores: Array) -> list[int]:
 def _refined(case: Case, trial: _Trial, change: Array, signals: Sequence[int]) -> Fit:
     """Gauss and Newton, with the parameters that are tolerated as what is known of them."""
     signals = list(signals)
-    counts = np.array([case.engine.signals[at].counts is not None for at in signals])
+    counts = np.array([trial.counted(at) for at in signals])
     units = np.array([trial.unit(at) for at in signals])
     kept = [k for k in range(len(case.tolerated)) if k not in case.starts]
     history = case.history.anew(case.gone, kept, [trial.most(at) for at in signals])
@@ -342,6 +363,10 @@ def _refined(case: Case, trial: _Trial, change: Array, signals: Sequence[int]) -
 def _starts(case: Case, signals: Sequence[int], usual: Array) -> tuple[Hypothesis, ...]:
     found = []
     for at, size in zip(signals, usual, strict=True):
+        if at >= len(case.engine.signals):
+            name = case.parameters[at - len(case.engine.signals)]
+            found.append(Hypothesis(name, "start", "", float(size), False))
+            continue
         known = case.engine.signals[at]
         unit = known.unit if known.counts is None else COUNT
         found.append(Hypothesis(known.path, "start", unit, float(size), False))

@@ -55,13 +55,18 @@ def starts_in(state: dict[str, Any]) -> tuple[Hypothesis, ...]:
 class _Group:
     """Residuals that remember the same starts, and what is known of these."""
 
-    def __init__(self, engine: Engine, memory: Memory) -> None:
+    def __init__(self, engine: Engine, memory: Memory, parameters: Sequence[str]) -> None:
         place = {k.path: at for at, k in enumerate(engine.signals)}
         number = {name: at for at, name in enumerate(engine.residuals)}
         self.memory = memory
         self.residuals = [number[name] for name in memory.residuals]
         self.signals = [place[path] for path in memory.signals]
         self.reads = [place[path] for path in memory.reads]
+        #: Of what is added up the parameters of its start, else it begins with a pulse in a signal.
+        own = memory.begins if memory.integral else ()
+        self.pulse = memory.integral and not own
+        self.places = [len(place) + parameters.index(name) for name in own] or self.signals
+        self.names = {*memory.signals, *own}
         self.counters = [at for at in self.signals if engine.signals[at].counts is not None]
         self.starts: tuple[Hypothesis, ...] = ()  # that were estimated, and their covariance
         self.spread: Array = np.zeros((0, 0))
@@ -93,11 +98,13 @@ class Origins:
 
     def __init__(self, engine: Engine, memories: Sequence[Memory], every: int) -> None:
         self._engine, self._every = engine, every
-        self._groups = [_Group(engine, memory) for memory in memories]
-        self._told = np.full(len(engine.signals), math.nan)  # the first sample, where it counts
+        self._parameters = [name for memory in memories for name in memory.begins]
+        self._groups = [_Group(engine, memory, self._parameters) for memory in memories]
+        many = len(engine.signals) + len(self._parameters)
+        self._told = np.full(many, math.nan)  # the first sample and parameters, where they count
         self._readings = Readings(len(engine.signals), engine.sample_time)
-        self._far = np.zeros(len(engine.signals))  # counts from the start
-        self._steep = np.zeros((len(engine.residuals), len(engine.signals)))
+        self._far = np.zeros(many)  # counts from the start
+        self._steep = np.zeros((len(engine.residuals), many))
         self._warm = math.ceil(engine.warm_up / engine.sample_time)
         counted = any(group.counters for group in self._groups)
         self._hold = _HOLD * self._warm if counted else 0
@@ -197,7 +204,7 @@ class Origins:
             (again and group.resumed) or self._readings.go_on(time, samples, first, group.counters)
         )
         if not group.kept:
-            self._told[group.signals] = math.nan
+            self._told[group.signals] = self._told[group.places] = math.nan
             self._far[group.signals] = np.maximum(
                 self._far[group.signals], np.abs(now[group.signals])
             )
@@ -281,7 +288,7 @@ class Origins:
             if found is None or not self._good(group, found):
                 continue
             group.doubtful = found.level > 1.0
-            self._told[group.signals] = found.start[group.signals]
+            self._told[group.places] = found.start[group.places]
             group.starts, group.spread = found.starts, found.spread
             self._taught(group, found, case)
             settled = Settled(found.bank, found.rows, found.tolerated, found.history)
@@ -293,8 +300,8 @@ class Origins:
         return self._warm * self._slow(group) // self._every + rows
 
     def _slow(self, group: _Group) -> int:
-        """Warm-ups until nothing is seen of the start itself: an integral begins with a pulse."""
-        return 2 if group.memory.integral else 1
+        """Warm-ups until nothing is seen of the start itself, or of a pulse that it is told as."""
+        return 2 if group.pulse else 1
 
     def _begins(self, row: Row) -> float:
         return row.time - (len(row.samples) - 1.5) * self._engine.sample_time
@@ -323,7 +330,7 @@ class Origins:
             if other.ours and other.memory.integral and other.window != group.window:
                 other.waiting, other.next = True, 0  # its start was that of another first sample
                 other.seen = math.nan
-                self._told[other.signals] = math.nan
+                self._told[other.places] = math.nan
         for row in settled.rows:
             row.bound[group.residuals] += self._slack(group, settled.tolerated, row.slopes)[
                 group.residuals
@@ -341,7 +348,8 @@ class Origins:
         history: History,
         limits: Array,
     ) -> Case:
-        start = rows[0].samples[0].copy()
+        declared = [self._engine.parameters[name] for name in self._parameters]
+        start = np.append(rows[0].samples[0], declared)
         known = np.isfinite(self._told)
         start[known] = self._told[known]
         sigma = limits[:, 0].copy()
@@ -351,20 +359,19 @@ class Origins:
         if unknown.any() and not group.kept:  # until noise has been learned
             rough = self._rough(start, rows)
             sigma[unknown], limit[unknown] = 0.1 * rough[unknown], 0.5 * rough[unknown]
-        paths = set(group.memory.signals)
         gone = [k for k, h in enumerate(tolerated)
-                if h.fault in paths and (h.kind == "start" or h.unit == COUNT)]  # fmt: skip
+                if h.fault in group.names and (h.kind == "start" or h.unit == COUNT)]  # fmt: skip
         starts = [k for k in gone if tolerated[k].kind == "start"]
         return Case(
-            self._engine, group.residuals, group.signals, start, rows, tolerated, gone, starts,
-            nominal, history, limit, sigma, self._far, self._steep, _KNOWN, self._hold,
-            self._warm * self._slow(group),
+            self._engine, group.residuals, group.places, self._parameters, start, rows, tolerated,
+            gone, starts, nominal, history, limit, sigma, self._far, self._steep, _KNOWN,
+            self._hold, self._warm * self._slow(group),
         )  # fmt: skip
 
     def _rough(self, start: Array, rows: Sequence[Row]) -> Array:
         """About what residuals are allowed, where nobody knows their noise."""
         engine = self._engine.configured()
-        engine.run(start[None])
+        engine.run(start[None, : len(engine.signals)])
         batch = engine.run(np.concatenate([row.samples for row in rows]))
         bound = np.median(batch.bound[-self._every :], axis=0)
         size = np.sqrt(np.mean(np.square(batch.value[-self._every :]), axis=0))
@@ -388,7 +395,7 @@ class Origins:
     def resume(self, state: dict[str, Any]) -> None:
         """Go on from a state."""
         starts = starts_in(state)
-        own = [tuple(h for h in starts if h.fault in g.memory.signals) for g in self._groups]
+        own = [tuple(h for h in starts if h.fault in g.names) for g in self._groups]
         spread = [array(s, (len(h),) * 2) for s, h in zip(state["spread"], own, strict=True)]
         waiting = [bool(w) for w in state["waiting"]]
         fresh = [bool(f) for f in state["fresh"]]

@@ -26,14 +26,16 @@ class Memory(NamedTuple):
 
     `signals` are those of whose first sample something stays for ever, `reads` all that may start
     the residuals anew by having no value; both are paths. `integral` says that what stays is a sum
-    over all samples since: no later reading tells it. `unknown` are the parameters that say where
-    it begins and have a tolerance: each log begins elsewhere.
+    over all samples since: no later reading tells it. `begins` are the parameters that only say
+    where that begins, and are nothing to other memories; `unknown` those with a tolerance: each log
+    begins elsewhere, and its samples have to tell where.
     """
 
     residuals: tuple[str, ...]
     signals: tuple[str, ...]
     reads: tuple[str, ...]
     integral: bool = False
+    begins: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
 
 
@@ -45,22 +47,28 @@ def memories(graph: BondGraph, residuals: ResidualSet, program: Program) -> tupl
     that share filters start anew together.
     """
     found = _memories(program)
-    reads = {i.name: _starts(graph, r.expr, bool(i.follows))
+    given = {p.path for p in program.params}
+    own = {v.symbol: v.name for v in graph.values if not v.fault and v.name in given}
+    reads = {i.name: _starts(graph, own, r.expr, bool(i.follows))
              for r, i in zip(residuals.residuals, program.residuals, strict=True)}  # fmt: skip
-    lasting = {r for memory in found for r in memory.residuals}
-    fading = frozenset[str]().union(*[own for r, own in reads.items() if r not in lasting])
+    each = [frozenset[str]().union(*[reads.pop(r) for r in m.residuals]) for m in found]
+    loose = {v.name for v in graph.values if v.tolerance}.difference(*reads.values())
     return tuple(
-        m._replace(unknown=tuple(sorted(set().union(*[reads[r] for r in m.residuals]) - fading)))
-        for m in found
+        memory._replace(
+            begins=tuple(sorted(of.difference(*each[:k], *each[k + 1 :]))),
+            unknown=tuple(sorted(of & loose)),
+        )
+        for k, (memory, of) in enumerate(zip(found, each, strict=True))
     )
 
 
-def _starts(graph: BondGraph, relation: Expr, follows: bool) -> frozenset[str]:
-    """The parameters with a tolerance that a relation reads only as where something begins.
+def _starts(
+    graph: BondGraph, own: Mapping[Expr, str], relation: Expr, follows: bool
+) -> frozenset[str]:
+    """Those of its `own` parameters that a relation reads as where something begins.
 
     What an observer reads so nobody asks: it `follows` the machine from wherever that begins.
     """
-    own = {v.symbol: v.name for v in graph.values if v.tolerance and not v.fault}
     if not own or follows:
         return frozenset(own.values())
     behind = graph.initial_values()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from functools import cache
 
 import numpy as np
@@ -76,12 +77,13 @@ def test_without_a_tolerance_the_start_is_what_is_declared() -> None:
 
 
 def test_a_parameter_that_a_law_reads_too_is_none_of_a_start() -> None:
-    def unknown(c: Compilation) -> list[tuple[str, ...]]:
-        return [memory.unknown for memory in c.diagnosis_model.memories]
+    def starts(c: Compilation) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        (memory,) = c.diagnosis_model.memories
+        return memory.begins, memory.unknown
 
-    assert unknown(cell()) == [("q0",)]
-    assert unknown(cell(q0="2*q0")) == [("q0",)]
-    assert unknown(cell(start="")) == unknown(cell(q0="R*10 C/Ohm")) == [()]
+    assert starts(cell()) == starts(cell(q0="2*q0")) == (("q0",), ("q0",))
+    assert starts(cell(start="")) == (("q0",), ())
+    assert starts(cell(q0="R*10 C/Ohm")) == ((), ())
 
 
 def test_its_tolerance_widens_what_is_embedded_and_not_what_is_watched() -> None:
@@ -127,3 +129,67 @@ def test_limits_are_those_of_logs_whose_start_is_known() -> None:
     ]
     sigma = [own.tuning.limits["r1"].sigma for own in alone]
     assert 0.8 * min(sigma) < found.sigma < 1.2 * max(sigma)
+
+
+_PAIR = """bg 1
+model Pair {
+    param R = 0.5 Ohm +- 5%
+    param a0 = 10 C +- 50%
+    param b0 = 10 C +- 50%
+    1:s { <- Sf:I; -> 0:ta; -> 0:tb }
+    ta { -> De:Va; -> 1:ca }
+    ca { -> C:a(q0 = a0) { e = 0.2*q + 0.01*q^2 }; -> R:Ra = R }
+    tb { -> De:Vb; -> 1:cb }
+    cb { -> C:b(q0 = b0) { e = 0.2*q + 0.01*q^2 }; -> R:Rb = R }
+}"""
+
+
+@cache
+def pair() -> Compilation:
+    """Two of these cells in series: one current, two charges that nobody knows."""
+    return bondgraph.compile(text=_PAIR, rate=_RATE)
+
+
+def pair_log(a: float, b: float, fault: float = 0.0) -> dict[str, Array]:
+    """Both begin elsewhere; the second voltage reads too much in the last quarter."""
+    one, other = log(a, 3), log(b, 4)
+    volt = other.columns["V"] + fault * (other.time > 30.0)
+    return {"t": one.time, "I": one.columns["I"], "Va": one.columns["V"], "Vb": volt}
+
+
+@pytest.mark.parametrize(("a", "b"), [(10.0, 10.0), (7.0, 12.0), (12.0, 6.0)])
+@pytest.mark.parametrize("gap", [False, True])
+def test_two_starts_behind_one_current_are_found(a: float, b: float, gap: bool) -> None:
+    """A current that is told to have begun elsewhere moves both charges alike."""
+    columns = pair_log(a, b)
+    if gap:
+        columns = {name: np.delete(own, slice(1500, 1700)) for name, own in columns.items()}
+    verdicts = bondgraph.monitor(pair(), columns).verdicts[0]
+    text = " ".join(v.message for v in verdicts)
+    assert "r1 and r2 wait until the machine has shown by its motion what a0 and b0 are" in text
+    assert "r1 and r2 are watched from now on" in text and "stand at zero" not in text
+    assert gap == ("where they began is known" in text)
+    assert not [v for v in verdicts if v.event == "fault"]
+
+
+def test_a_fault_behind_two_starts_is_named() -> None:
+    verdicts = bondgraph.monitor(pair(), pair_log(7.0, 12.0, fault=0.3)).verdicts[0]
+    named = [v.candidates[0] for v in verdicts if v.candidates]
+    assert named[-1].fault == "Vb" and named[-1].size == pytest.approx(0.3, abs=0.03)
+
+
+def test_behind_a_kill_the_starts_are_found_anew() -> None:
+    """By what a journal holds: the charges have gone on, as behind any gap."""
+    columns = pair_log(7.0, 12.0, fault=0.3)
+    engine = pair().engine().configured(bandwidth=10.0)
+    rows = np.column_stack([columns[k.path] for k in engine.signals])
+    first, second = pair().diagnosis(engine), pair().diagnosis(engine)
+    part = slice(0, 1500)
+    first.update(columns["t"][part], engine.run(rows[part]), rows[part])
+    second.resume(json.loads(json.dumps(first.state())))
+    again, part = engine.configured(), slice(1500, 4000)
+    said = second.update(columns["t"][part], again.run(rows[part]), rows[part])
+    faults = [v for v in said if v.event == "fault"]
+    assert [round(v.since) for v in faults if v.since is not None] == [30]
+    named = [v.candidates[0].fault for v in said if v.candidates]
+    assert named[-1] == "Vb"
