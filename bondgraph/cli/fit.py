@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, Left
+    from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, Left, Start
 
 _LATE = 3.0  # standard errors above which it is told that a signal comes early or late
 _SUSPECTS = 3  # offsets that are told at most
@@ -260,15 +260,19 @@ def _starts(found: Fitted) -> list[str]:
     names = list(dict.fromkeys(s.name for s in found.starts))
     if not names:
         return []
-    rows: list[tuple[str, ...]] = [("log", *(x for name in names for x in (name, "+- (95 %)")))]
-    for log in dict.fromkeys(s.log for s in found.starts):
-        row = [log]
-        for one in (s for s in found.starts if s.log == log):
-            sure = "not told" if one.interval is None else f"{one.interval:.2g}"
-            row += [f"{one.value:.6g}", sure]
+    rows: list[tuple[str, ...]] = [("", *(x for name in names for x in (name, "+- (95 %)")))]
+    for log, time, later in dict.fromkeys((s.log, s.time, s.later) for s in found.starts):
+        row = [f"{log} from {moment(time)}" if later else log]
+        for name in names:
+            own = [s for s in found.starts if (s.name, s.log, s.time) == (name, log, time)]
+            row += _start(own[0]) if own else ["", ""]
         rows.append(tuple(row))
-    return ["", "Where each log begins: no part of the file, a watch finds it anew",
-            *console.columns(rows)]  # fmt: skip
+    return ["", "Where logs begin, and what is behind their gaps: no part of the file, a watch"
+            " finds it anew", *console.columns(rows)]  # fmt: skip
+
+
+def _start(one: Start) -> list[str]:
+    return [f"{one.value:.6g}", "not told" if one.interval is None else f"{one.interval:.2g}"]
 
 
 def _tolerances(found: Fitted, declared: Mapping[str, float]) -> list[str]:

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from bondgraph.runtime.diagnosis.parameter_fit import Fitted
-from bondgraph.runtime.diagnosis.remembered import Memory, from_the_start
+from bondgraph.runtime.diagnosis.remembered import Memory, counted
 from bondgraph.runtime.diagnosis.tuning import kappa
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.clock import Piece
@@ -41,7 +41,7 @@ def with_room(
         return found
     share, logs = np.zeros(len(engine.residuals)), _less_offsets(found, engine, pieces)
     for bandwidth in sorted(set(bandwidths)):
-        own = engine.configured(bandwidth=bandwidth)
+        own = engine.configured(found.values, bandwidth=bandwidth)
         share = np.maximum(share, _needed(own, found, logs, memories))
     needed: dict[str, float] = {}
     for k, name in enumerate(engine.residuals):
@@ -70,17 +70,17 @@ def narrower(tolerance: float, declared: float) -> float | None:
 
 def _less_offsets(
     found: Fitted, engine: Engine, pieces: Sequence[tuple[str, Piece]]
-) -> list[tuple[str, Array]]:
+) -> list[tuple[str, Piece]]:
     """The samples without the offsets that were fitted."""
     off = found.offset_values
     more = np.array([off.get(k.path, k.offset) - k.offset for k in engine.signals])
-    return [(name, piece.samples - more) for name, piece in pieces]
+    return [(name, piece._replace(samples=piece.samples - more)) for name, piece in pieces]
 
 
 def _needed(
     engine: Engine,
     found: Fitted,
-    logs: Sequence[tuple[str, Array]],
+    logs: Sequence[tuple[str, Piece]],
     memories: Sequence[Memory],
 ) -> Array:
     """The largest share of its threshold that each residual needed, infinite without any.
@@ -90,16 +90,15 @@ def _needed(
     draw = np.random.default_rng(1)
     deviation = np.array([found.noise.get(k.path, 0.0) for k in engine.signals])
     parts: list[tuple[Array, Array, Array]] = []
-    seen: set[str] = set()
-    for name, samples in logs:
+    for name, piece in logs:
+        samples, told = piece.samples, found.begun(name, float(piece.time[0]))
         louder = samples + deviation * draw.standard_normal(samples.shape)
-        fitted = engine.configured(found.of_log(name))
+        fitted = engine.configured(told)
         twice = [_run(fitted, own) for own in (samples, louder)]
-        known = from_the_start(engine, memories, samples, later=name in seen)
+        known = counted(engine, memories, samples, bool(piece.anew), told)
         valid = twice[0].valid & twice[1].valid & (np.arange(len(samples))[:, None] < known)
         value, more = (np.where(valid, one.value, math.nan) for one in twice)
         parts.append((value, more - value, twice[0].bound))
-        seen.add(name)
     value, added, bound = (np.concatenate(own) for own in zip(*parts, strict=True))
     return np.array([
         _share(value[good, k], added[good, k], bound[good, k], engine)

@@ -185,10 +185,15 @@ class Suspect(NamedTuple):
 
 
 class Start(NamedTuple):
-    """What the parameter of an unknown start is in one log; `error` None where that cannot tell."""
+    """What the parameter of an unknown start is where a log begins, or `later` behind a gap of it.
+
+    At a `time` in s, in the unit of the parameter; `error` None where the samples cannot tell it.
+    """
 
     name: str
     log: str
+    time: float
+    later: bool
     value: float
     error: float | None
     unit: str
@@ -202,8 +207,8 @@ class Start(NamedTuple):
 class Fitted(NamedTuple):
     """Parameters from so many `logs`; `noise` by signal, as seen or given, `seconds` of use.
 
-    `starts` are where logs begin that nobody knows: of each log it is its own. `offsets` are those
-    of signals that were asked for, with a nominal value of zero; `suspects`
+    `starts` are where logs begin that nobody knows, each by itself, and what is behind their gaps.
+    `offsets` are those of signals that were asked for, with a nominal value of zero; `suspects`
     others that would explain what is left, the most likely one first. The filter was of this
     `bandwidth` (rad/s); with it the relative errors of all that is fitted are in the geometric mean
     exp(`spread`), what no log tells among them.
@@ -229,9 +234,10 @@ class Fitted(NamedTuple):
         """The fitted values of parameters in SI units, by name."""
         return {p.name: p.value for p in self.parameters}
 
-    def of_log(self, log: str) -> dict[str, float]:
-        """The fitted values with those of the starts of one log."""
-        return {**self.values, **{s.name: s.value for s in self.starts if s.log == log}}
+    def begun(self, log: str, time: float) -> dict[str, float]:
+        """What was told of the starts of a log, or of what is behind a gap of it at a time (s)."""
+        own = [s for s in self.starts if s.error is not None and (s.log, s.time) == (log, time)]
+        return {s.name: s.value for s in own}
 
     @property
     def tolerances(self) -> dict[str, float]:
@@ -324,8 +330,10 @@ def fit(
     )
     split, more = len(free.parameters), len(free.parameters) + len(runs.starts)
     starts = tuple(
-        Start(name, log, one.value, one.error, units.get(name, ""))
-        for (name, log), one in zip(runs.starts.values(), own[split:more], strict=True)
+        Start(
+            name, *runs.begins[piece], runs.later[piece], one.value, one.error, units.get(name, "")
+        )
+        for (name, piece), one in zip(runs.starts.values(), own[split:more], strict=True)
     )
     return Fitted(
         own[:split], starts, own[more:], suspects, found, left, delays, seen, runs.seconds,

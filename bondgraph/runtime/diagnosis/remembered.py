@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -115,14 +115,24 @@ def _memories(program: Program) -> tuple[Memory, ...]:
     )
 
 
+def unknown_starts(memories: Sequence[Memory], later: bool) -> tuple[str, ...]:
+    """The parameters of starts that samples have to tell, the first or `later` ones of a log.
+
+    Behind a gap the machine is somewhere in its motion, whatever the model declares.
+    """
+    found = [name for m in memories for name in (m.begins if later else m.unknown)]
+    return tuple(dict.fromkeys(found))
+
+
 def from_the_start(
     engine: Engine, memories: Sequence[Memory], samples: Array, later: bool
 ) -> Array:
-    """For how many samples each residual counts from a start that is known, (residuals,).
+    """For how many samples each residual counts from a start that can be known, (residuals,).
 
-    At the first sample of a log the machine is where the model declares it to be. Behind a gap
-    it is somewhere in its motion: so it is throughout samples that are `later` ones of a log, and
-    from where a signal that such a residual reads has no number.
+    At the first sample of a log the machine is where the model declares it to be, or where
+    parameters say that the samples tell (`unknown_starts`). It is somewhere from where a signal
+    that such a residual reads has no number, and throughout samples that are `later` ones of a
+    log, behind a gap, if there is no parameter for it.
     """
     found = np.full(len(engine.residuals), len(samples))
     paths = [k.path for k in engine.signals]
@@ -131,9 +141,21 @@ def from_the_start(
         whole: Mask = np.asarray(np.isfinite(samples[:, reads]).all(axis=1))
         begins = int(np.argmax(whole)) if whole.any() else len(whole)
         lost = np.flatnonzero(~whole[begins:])
-        until = 0 if later else begins + int(lost[0]) if len(lost) else len(whole)
+        until = begins + int(lost[0]) if len(lost) else len(whole)
+        until = 0 if later and not memory.begins else until
         own = [engine.residuals.index(r) for r in memory.residuals]
         found[own] = np.minimum(found[own], until)
+    return found
+
+
+def counted(
+    engine: Engine, memories: Sequence[Memory], samples: Array, later: bool, told: Container[str]
+) -> Array:
+    """The same without residuals of whose unknown starts not all are `told`."""
+    found = from_the_start(engine, memories, samples, later)
+    for memory in memories:
+        if not all(name in told for name in unknown_starts([memory], later)):
+            found[[engine.residuals.index(r) for r in memory.residuals]] = 0
     return found
 
 

@@ -12,11 +12,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from bondgraph.runtime.diagnosis.remembered import Memory, from_the_start
+from bondgraph.runtime.diagnosis.remembered import Memory, from_the_start, unknown_starts
 from bondgraph.runtime.diagnosis.whitening import LAGS
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.text.moment import moment
 
 _APART = 0.5  # time constants of the filter between two rows
 _JUMP = 10.0  # deviations of its steps that a signal changes by where it jumps
@@ -42,12 +43,6 @@ class ResidualRows:
         memories: Sequence[Memory] = (),
     ) -> None:
         self.engine = engine
-        #: Starts that nobody knows, each with its parameter and the log that begins there.
-        self.starts = {
-            f"{name} in {log}": (name, log)
-            for name in dict.fromkeys(n for memory in memories for n in memory.unknown)
-            for log in dict.fromkeys(log for log, _ in pieces)
-        }
         time = engine.sample_time
         self.every = max(1, round(_APART / engine.bandwidth / time))
         self.skip = math.ceil(engine.warm_up / time / self.every) + 1
@@ -55,6 +50,13 @@ class ResidualRows:
         enough = [(name, piece) for name, piece in pieces if len(piece.samples) > long]
         self.begins = [(name, float(piece.time[0])) for name, piece in enough]
         self.pieces = [piece.samples for _, piece in enough]
+        self.later = [bool(piece.anew) for _, piece in enough]
+        #: Starts that nobody knows, each with its parameter and the number of the piece.
+        self.starts = {
+            f"{name} in {log}" + (f" from {moment(begin)}" if later else ""): (name, k)
+            for k, ((log, begin), later) in enumerate(zip(self.begins, self.later, strict=True))
+            for name in unknown_starts(memories, later)
+        }
         self._lasts = [
             from_the_start(engine, memories, piece.samples, bool(piece.anew)) for _, piece in enough
         ]
@@ -161,10 +163,10 @@ class ResidualRows:
         off: Mapping[int, float],
     ) -> tuple[Array, Array]:
         clean, added = [], []
-        every = zip(self.begins, self.pieces, self._shaken, self._lasts, strict=True)
-        for (log, _), samples, shaken, lasts in every:
-            own = [self._of(log, numbers) for numbers in parameters]
-            each = {tuple(numbers.items()): None for numbers in own}  # of other logs is other
+        every = enumerate(zip(self.pieces, self._shaken, self._lasts, strict=True))
+        for number, (samples, shaken, lasts) in every:
+            own = [self._of(number, numbers) for numbers in parameters]
+            each = {tuple(numbers.items()): None for numbers in own}  # what others begin with
             which = [list(each).index(tuple(numbers.items())) for numbers in own]
             few = [dict(numbers) for numbers in each]
             one = self._through(few, _moved(samples, late, off), samples, lasts)
@@ -173,18 +175,18 @@ class ResidualRows:
             added.append(more[which])
         return np.concatenate(clean, axis=1), np.concatenate(added, axis=1)
 
-    def _of(self, log: str, numbers: Mapping[str, float]) -> dict[str, float]:
-        """The parameters of one log, under their names in the model."""
+    def _of(self, piece: int, numbers: Mapping[str, float]) -> dict[str, float]:
+        """The parameters of one piece, under their names in the model."""
         own = {}
         for name, value in numbers.items():
-            called, where = self.starts.get(name, (name, log))
-            if where == log:
+            called, where = self.starts.get(name, (name, piece))
+            if where == piece:
                 own[called] = value
         return own
 
     def declared(self, name: str) -> float:
         """The nominal value of a parameter, or of one of the `starts`."""
-        return self.engine.parameters[self.starts.get(name, (name, ""))[0]]
+        return self.engine.parameters[self.starts.get(name, (name, 0))[0]]
 
     def _through(
         self,

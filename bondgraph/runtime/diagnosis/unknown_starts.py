@@ -6,7 +6,7 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.parameter_fit import Wanted, fit
-from bondgraph.runtime.diagnosis.remembered import from_the_start
+from bondgraph.runtime.diagnosis.remembered import counted, unknown_starts
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
@@ -15,23 +15,20 @@ from bondgraph.runtime.monitoring.engine import Engine
 def started(
     engine: Engine, model: DiagnosisModel, samples: Array, later: bool
 ) -> tuple[Engine, Array]:
-    """The engine as this log begins, and for how many samples each residual counts, (residuals,).
+    """The engine as these samples begin, and for how many each residual counts, (residuals,).
 
-    From where its start is declared or found in the log, see `from_the_start`. Where the log does
-    not tell it, residuals that remember it do not count.
+    From a start that is declared or that they tell, of the first or `later` ones of a log: see
+    `from_the_start`. Where they do not tell it, residuals that remember it do not count.
     """
-    lasts = from_the_start(engine, model.memories, samples, later)
-    unknown = [memory for memory in model.memories if memory.unknown]
-    if not unknown or later:
-        return engine, lasts
-    time = engine.sample_time * np.arange(float(len(samples)))
-    try:
-        found = fit(engine, [("log", Piece(time, samples))], Wanted(()), model.tolerances,
-                    model.units, {}, memories=model.memories)  # fmt: skip
-        told = {s.name: s.value for s in found.starts if s.error is not None}
-    except ValueError:  # too short
-        told = {}
-    for memory in unknown:
-        if not told.keys() >= set(memory.unknown):
-            lasts[[engine.residuals.index(r) for r in memory.residuals]] = 0
-    return engine.configured(told), lasts
+    wanted = unknown_starts(model.memories, later)
+    told: dict[str, float] = {}
+    if wanted:
+        time = engine.sample_time * np.arange(float(len(samples)))
+        piece = Piece(time, samples, "later" if later else "")
+        try:
+            found = fit(engine, [("log", piece)], Wanted(()), model.tolerances, model.units, {},
+                        memories=model.memories)  # fmt: skip
+            told = found.begun("log", 0.0)
+        except ValueError:  # too short
+            told = {}
+    return engine.configured(told), counted(engine, model.memories, samples, later, told)

@@ -105,8 +105,23 @@ def test_a_fit_finds_one_for_each_log() -> None:
     for one in found.starts:
         assert one.name == "q0" and one.unit == "C" and one.interval is not None
         assert abs(one.value - _BEGAN[one.log]) < 2.0 * one.interval < 0.02
-    assert found.of_log("empty") == {"R": R.value, "q0": found.starts[2].value}
+    assert found.begun("empty", 0.0) == {"q0": found.starts[2].value}
+    assert found.begun("empty", 1.0) == {}
     assert R.tolerance is not None and R.tolerance < 0.05  # three logs tell it
+
+
+@pytest.mark.parametrize("start", ["+- 50%", ""])
+def test_a_fit_uses_what_is_behind_a_gap(start: str) -> None:
+    """There the charge is one that nobody knows, declared or not."""
+    own = log(10.0)
+    keep = (own.time < 15.0) | (own.time > 20.0)
+    columns = {name: column[keep] for name, column in own.columns.items()}
+    found = cell(start, r="+- 20%").fit({"run": Log(own.time[keep], columns, {}, {})})
+    first, behind = found.starts[:-1], found.starts[-1]
+    assert [(s.name, s.later) for s in first] == ([("q0", False)] if start else [])
+    assert behind.later and behind.time == pytest.approx(20.0, abs=0.1)
+    assert behind.value == pytest.approx(10.0 + (1.0 - np.cos(0.9 * behind.time)) / 0.9, abs=0.02)
+    assert found.left[0].lost == 0.0 and found.left[0].rows > 3300 / 25  # half a time constant each
 
 
 def test_a_log_begins_where_least_is_left_of_it() -> None:
