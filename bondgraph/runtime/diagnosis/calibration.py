@@ -34,8 +34,8 @@ from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
 from bondgraph.runtime.diagnosis.shown_sizes import Shown, ShownSizes
 from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart
+from bondgraph.runtime.diagnosis.started import started
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
-from bondgraph.runtime.diagnosis.unknown_starts import started
 from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
 from bondgraph.runtime.diagnosis.whole_thresholds import WholeThresholds
 from bondgraph.runtime.log import Array

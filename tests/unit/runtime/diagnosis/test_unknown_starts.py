@@ -11,7 +11,7 @@ import pytest
 import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
-from bondgraph.runtime.diagnosis.unknown_starts import started
+from bondgraph.runtime.diagnosis.started import started
 from bondgraph.runtime.log import Array, Log
 
 _R, _RATE = 0.5, 100.0
