@@ -720,6 +720,8 @@ class Compilation:
         from bondgraph.runtime.diagnosis.remembered import memories
 
         graph, residuals, _ = self._shown
+        if not any(v.tolerance and not v.fault for v in graph.values):
+            return self.thresholds
         found = memories(graph, residuals, self.program)
         unknown = {name: 0.0 for memory in found for name in memory.unknown}
         return self._thresholds(graph.with_tolerances(unknown)) if unknown else self.thresholds

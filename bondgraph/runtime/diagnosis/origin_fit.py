@@ -69,13 +69,6 @@ class Case(NamedTuple):
         first, values = np.split(start, [len(self.engine.signals)])
         return first[None], dict(zip(self.parameters, values.tolist(), strict=True))
 
-    def begun(self, start: Array, bounds: bool = True) -> Engine:
-        """The engine behind such a start."""
-        first, own = self.told(start)
-        engine = self.engine.configured(own, bounds=bounds)
-        engine.run(first)
-        return engine
-
 
 class Fit(NamedTuple):
     """The start that explains most, and all that follows from it.
@@ -147,6 +140,8 @@ class _Trial:
 
     def __init__(self, case: Case) -> None:
         self._case = case
+        self._engine = case.engine.configured(bounds=False)
+        self._told: dict[str, float] = {}  # parameters of starts that it has
         self._samples = np.concatenate([row.samples for row in case.rows])
         ends = np.cumsum([len(row.samples) for row in case.rows])
         self._ends = ends[ends > case.warm] - 1
@@ -165,7 +160,12 @@ class _Trial:
 
     def values(self, change: Array) -> Array:
         """The residuals, (rows, own), when the start is changed by that much."""
-        engine = self._case.begun(self._case.start + change, bounds=False)
+        first, own = self._case.told(self._case.start + change)
+        if own != self._told:  # a new engine takes longer than one that forgets
+            self._engine, self._told = self._case.engine.configured(own, bounds=False), own
+        engine = self._engine
+        engine.reset()
+        engine.run(first)
         if self._case.hold:
             engine.run(np.repeat(self._samples[:1], self._case.hold, axis=0))
         return np.asarray(engine.run(self._samples).value[self._ends][:, self._own])
@@ -271,7 +271,9 @@ class _Trial:
         before = self._case.steep[np.ix_(self._own, list(signals))].T
         seen = np.concatenate([slopes, before[:, None]], axis=1)
         moved = np.sqrt(np.einsum("str,su,utr->tr", seen, spread, seen)).max(axis=0)
-        engine = self._case.begun(self._case.start + change)
+        first, own = self._case.told(self._case.start + change)
+        engine = self._case.engine.configured(own)
+        engine.run(first)
         bound = engine.run(self._samples).bound[self._ends][:, self._own]
         allowed = self._limit + np.median(bound, axis=0)
         return bool((_SPREAD * moved > _VAIN * self._case.known * allowed).any())
