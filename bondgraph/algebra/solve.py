@@ -170,6 +170,11 @@ def _peel(
             if root is None:
                 return None
             target = root
+        elif node.op is Op.FN and node.name == "pow":
+            base, exponent = node.args
+            if inner is not base or not _dividable(pool, exponent, vanishes):
+                return None  # of an unknown exponent a logarithm would be needed
+            target = pool.fn("pow", target, pool.power(exponent, -1))
         elif node.op is Op.FN and node.name in FUNCTIONS:
             inverse = FUNCTIONS[node.name].inverse
             if inverse is None:

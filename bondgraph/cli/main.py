@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 gc.set_threshold(100_000, 20, 20)
 atexit.register(gc.freeze)
 
-_WATCHES = ("monitor", "tune", "live")  # commands of many small matrices
+_WATCHES = ("monitor", "fit", "tune", "live")  # commands of many small matrices
 
 
 def plain_check(words: list[str]) -> SimpleNamespace | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Container, Mapping, Sequence
 from types import MappingProxyType
 
@@ -95,9 +96,9 @@ class Comparison:
         if self._beside is not None:
             self._beside.follow(fault)
 
-    def shows(self, fault: Explained) -> Mask | None:
+    def shows(self, fault: Explained, clear: Array | float = math.inf) -> Mask | None:
         """See `SinceOnset`."""
-        return None if self._beside is None else self._beside.shows(fault)
+        return None if self._beside is None else self._beside.shows(fault, clear)
 
     def pairs(
         self, history: History, singles: Sequence[Explained]

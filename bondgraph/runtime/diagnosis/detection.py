@@ -132,18 +132,20 @@ class Detection:
         self._quiet = 0
 
     def over(
-        self, row: Row, limits: Array, shows: Callable[[], Mask | None] = lambda: None
+        self, row: Row, limits: Array, shows: Callable[[Array], Mask | None] = lambda _: None
     ) -> bool:
         """Whether the fault is over, with one row more.
 
         `shows` says which residuals the fault would move now if it was still there, where that is
-        known: one that it would not move is quiet for no reason. It is asked while one is quiet.
+        known: one that it would not move is quiet for no reason. It is asked while one is quiet,
+        with how far out each is for an alarm.
         """
         seen = row.valid & self.fired & np.isfinite(limits[:, 0])  # others tell nothing
         excess = np.sign(row.value) * np.maximum(np.abs(row.value) - row.bound, 0.0)
         excess = np.where(seen, excess / limits[:, 0], 0.0)
         loud = np.abs(excess) > 1.0
-        moved = shows() if (seen & ~loud).any() else None
+        clear = row.bound + limits[:, 2] * limits[:, 0]
+        moved = shows(clear) if (seen & ~loud).any() else None
         if moved is not None:
             seen &= moved | loud
         more = np.where(seen & (self._sum[0] > 0), self._more(excess, limits[:, 5]), 0.0)

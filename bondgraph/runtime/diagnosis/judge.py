@@ -83,11 +83,14 @@ class Judge:
         """The fault that explains all, if there is one."""
         return None if self._best is None else self._best.fault
 
-    def shows(self) -> Mask | None:
-        """Which residuals the fault that explains all would move now, if there is one."""
+    def shows(self, clear: Array) -> Mask | None:
+        """Which residuals the fault that explains all would move now, if there is one.
+
+        As much as it usually does, or by what is `clear` of each.
+        """
         if self._best is None or not self._compared:
             return None
-        return self._compared.shows(self._best)
+        return self._compared.shows(self._best, clear)
 
     def wrong(self, history: History) -> Explained | None:
         """The fault that explains all, as it is known by now."""

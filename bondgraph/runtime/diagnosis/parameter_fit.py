@@ -38,6 +38,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.tuples import NamedTuple
 
 _ROUNDS = 4  # of weights from what is left, and parameters from weights
+_ASKED = 3  # times that it is asked what nothing tells
 _STEP = 1e-3  # relative, of central differences
 _WIDE = 10.0  # deviation of a parameter that no log tells, relative to its value
 _TOLD = 0.3  # relative deviation below which a parameter is told
@@ -284,14 +285,10 @@ def fit(
             problem.weigh(at)
         at = problem.solve(at)
         progress((k + 1) / (_ROUNDS + 1))
-    whole = problem.covariance(at)
     names = problem.names
     count = len(names)
+    at, whole, null = _declared(problem, at)
     covariance = whole[:count, :count]
-    null = untold(covariance, _TOLD**2)
-    if len(null):  # what nothing tells stays as it is declared
-        problem.pin(null)
-        at = problem.solve(at)
     bound = problem.bound(at)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
     left = problem.left(at)
@@ -341,6 +338,29 @@ def fit(
         float(np.linalg.slogdet(covariance)[1]) / (2.0 * count),
         len({name for name, _ in pieces}),
     )  # fmt: skip
+
+
+def _declared(problem: _Problem, at: Array) -> tuple[Array, Array, Array]:
+    """Where what nothing tells stays as it is declared, the covariance there, and what that is.
+
+    A fit goes anywhere along what nothing tells: there a valve may be open all the time, and one
+    that the logs do tell of seems not to be told. So it is asked again where that is as declared.
+    """
+    count = len(problem.names)
+    null = np.zeros((0, count))
+    for _ in range(_ASKED):
+        whole = problem.covariance(at)
+        own = untold(whole[:count, :count], _TOLD**2)
+        if own.shape == null.shape and ((own != 0) == (null != 0)).all():
+            break
+        null = own
+        problem.pin(null)
+        at = problem.solve(at)
+        problem.weigh(at)
+        at = problem.solve(at)
+    else:
+        whole = problem.covariance(at)
+    return at, whole, null
 
 
 def _more(covariance: Array, own: Sequence[int]) -> float | None:

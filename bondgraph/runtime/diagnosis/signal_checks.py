@@ -43,8 +43,8 @@ class Unusual(NamedTuple):
     """Something that a signal shows: which, what (`spike`, `burst` or `stuck`), and since when (s).
 
     `now` is how far out it is and `before` the most that it was while all was well: of a spike or
-    a burst in shares of its range, of a signal that stands still in samples. Of an encoder that
-    does it is known which `other` goes on.
+    a burst in shares of its range then, of a signal that stands still in samples. Of an encoder
+    that does it is known which `other` goes on.
     """
 
     signal: str
@@ -183,7 +183,7 @@ class SignalChecks:
         if self._driven < _AFTER:
             found = {n: one for n, one in found.items() if one.kind == "stuck"}
         if healthy and not found:
-            self._learn(own, far, rough, moved, ended, changes)
+            self._learn(with_last, len(own), far, rough, moved, ended, changes)
         return found, driven
 
     def _rests(self, last: Array, runs: Array, top: Array, bottom: Array) -> Mask:
@@ -267,11 +267,14 @@ class SignalChecks:
             beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
             burst &= beside > np.minimum(_ROUGHER * self._rough[1], _WHITE)
             longest = np.maximum(_STILL * self._still, _LEAST)
-            known = (self._still > 0.0) & (self._least >= _CHANGES)
-            noisy = known & np.isfinite(self._calm) & (self._calm > _NOISY)
+            # a spike is no part of the range that it is told in shares of, wherever in a row it is
+            known = self._range[1] - self._range[0]
+            whole = np.where(known > 0.0, known, span)
+            changing = (self._still > 0.0) & (self._least >= _CHANGES)
+            noisy = changing & np.isfinite(self._calm) & (self._calm > _NOISY)
             return {
-                "spike": (spike, far[1] / span, self._far[1] / span),
-                "burst": (burst, rough / span, self._rough[0] / span),
+                "spike": (spike, far[1] / whole, self._far[1] / whole),
+                "burst": (burst, rough / whole, self._rough[0] / whole),
                 "stuck": (noisy & (runs > longest), runs, self._still),
             }
 
@@ -325,13 +328,17 @@ class SignalChecks:
             if len(with_last) >= 4 * _SIDE + 1:
                 calm = np.zeros(len(with_last), dtype=np.bool_)
                 far, rough, moved, _ = self._looked_at(with_last, calm)
-                self._learn(row, far, rough, moved, ended, changes)
+                self._learn(with_last, len(row), far, rough, moved, ended, changes)
         self._last = last
 
     def _learn(
-        self, own: Array, far: Array, rough: Array, moved: Array, ended: Array, changes: Array
-    ) -> None:
+        self, samples: Array, count: int, far: Array, rough: Array, moved: Array, ended: Array,
+        changes: Array,
+    ) -> None:  # fmt: skip
         """A healthy row more, of the signals that have a value all through it.
+
+        It has so many samples, and others before it. What the last of them are is known with the
+        next row only: of a spike there the range is none.
 
         Two spikes in a row are not told, and not what the signal does: it is as smooth as ever.
         """
@@ -343,9 +350,10 @@ class SignalChecks:
         quiet = rough <= self._louder() * self._rough[0]
         spikes = out & quiet & (self._samples >= _ENOUGH)
         beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
+        seen = samples[2 * _SIDE : len(samples) - 2 * _SIDE]
         usual = self._run <= np.maximum(self._still, 1.0) * 2.0  # else it may have begun to stand
         for table, more, which in (
-            (self._range[1], own.max(axis=0), fresh),
+            (self._range[1], seen.max(axis=0), fresh),
             (self._far[0], far[0], fresh & ~spikes),
             (self._far[1], far[1], fresh & ~spikes),
             (self._rough[0], rough, fresh),
@@ -354,12 +362,12 @@ class SignalChecks:
         ):
             table[which] = np.maximum(table, more)[which]
         for table, more, which in (
-            (self._range[0], own.min(axis=0), fresh),
-            (self._least, self._share(len(own), changes, usual), fresh & usual),
+            (self._range[0], seen.min(axis=0), fresh),
+            (self._least, self._share(count, changes, usual), fresh & usual),
             (self._calm, beside, fresh & usual & (moved > 0)),
         ):
             table[which] = np.minimum(table, more)[which]
-        self._samples += np.where(fresh, len(own), 0)
+        self._samples += np.where(fresh, count, 0)
         self._rows += fresh
 
     def _share(self, count: int, changes: Array, usual: Mask) -> Array:

@@ -144,10 +144,12 @@ class SinceOnset:
         if len(self._waiting) >= _WAIT:
             self._catch_up()
 
-    def shows(self, fault: Explained) -> Mask | None:
+    def shows(self, fault: Explained, clear: Array | float = math.inf) -> Mask | None:
         """Which residuals the fault moves in the last row as it usually does, where that is known.
 
-        Where something is held at a position that it is told to be in, nothing shows it.
+        Or by what is `clear` of each: a controller drives a machine with a fault as it does no
+        healthy one, and where it moves less than then a large fault still shows. Where something
+        is held at a position that it is told to be in, nothing shows it.
         """
         self._catch_up()
         held = fault.hypothesis.held
@@ -158,7 +160,8 @@ class SinceOnset:
         if k not in self._sized:  # it is not followed any more
             return None
         usual = np.sqrt(self._squares[k] / len(self._rows))
-        return np.asarray(np.abs(self._slopes[k]) >= _SHOWS * usual)
+        now = np.abs(self._slopes[k])
+        return np.asarray((now >= _SHOWS * usual) | (now * abs(fault.change) > clear))
 
     def follow(self, fault: Explained | None) -> None:
         """Once all rows that are compared are known, only what this fault shows is still wanted."""

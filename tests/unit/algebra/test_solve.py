@@ -26,6 +26,7 @@ FUNCTIONS = {
     "asinh": math.asinh,
     "atan": math.atan,
     "tan": math.tan,
+    "pow": pow,
 }
 
 
@@ -74,6 +75,8 @@ def laws(p: Pool, s: dict[str, Expr]) -> dict[str, tuple[Expr, bool]]:
         "diode": (p.mul(k, p.add((1, p.fn("exp", p.div(f, c))), (-1, p.one))), True),
         "cubic": (p.add((1, p.mul(k, p.power(f, 3))), (1, c)), True),
         "friction": (p.mul(c, p.fn("tanh", p.mul(k, f))), True),
+        "gas": (p.mul(k, p.fn("pow", p.div(c, p.sub(c, f)), p.num(Fraction(13, 10)))), True),
+        "gas of any exponent": (p.mul(c, p.fn("pow", p.add((1, f), (1, c)), p.neg(R))), True),
         "rational": (p.div(p.mul(k, f), p.add((1, p.one), (1, f))), True),
         "twice": (p.add((1, p.mul(R, f)), (1, p.mul(k, p.add((1, f), (1, c))))), False),
     }
@@ -104,6 +107,7 @@ def test_what_has_two_solutions_has_none(pool: Pool) -> None:
         pool.add((1, f), (1, pool.mul(k, f, f))),
         pool.mul(f, pool.fn("exp", f)),
         pool.fn("sin", f),
+        pool.fn("pow", f, f),
     ):
         assert solve(pool, pool.sub(g, value), f) is None
 

@@ -166,14 +166,17 @@ def test_light_commands_import_nothing_heavy(words: list[str]) -> None:
     assert done.stdout.splitlines()[-1] == "heavy: 0 []"
 
 
-@pytest.mark.parametrize(("given", "found"), [(None, "1"), ("3", "3")])
+@pytest.mark.parametrize(("command", "given", "found"), [
+    ("monitor", None, "1"), ("monitor", "3", "3"), ("fit", None, "1"),
+])  # fmt: skip
 def test_a_watch_asks_numeric_libraries_for_one_thread_unless_told_otherwise(
-    given: str | None, found: str
+    command: str, given: str | None, found: str
 ) -> None:
     program = (
         "import os, sys; from bondgraph.cli.main import main\n"
         "main(['check', 'none.bg']); before = os.environ.get('OPENBLAS_NUM_THREADS')\n"
-        "main(['monitor', 'none.bg']); print(before, os.environ['OPENBLAS_NUM_THREADS'])"
+        f"main(['{command}', 'none.bg', 'none.csv'])\n"
+        "print(before, os.environ['OPENBLAS_NUM_THREADS'])"
     )
     left = {k: v for k, v in os.environ.items() if k != "OPENBLAS_NUM_THREADS"}
     more = {} if given is None else {"OPENBLAS_NUM_THREADS": given}

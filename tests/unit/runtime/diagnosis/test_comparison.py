@@ -258,7 +258,8 @@ def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> N
         _samples(engine, 640 * 20), range(19, 640 * 20, 20)
     )[:, 0, 0]
     usual = np.sqrt(np.mean(slopes[:600] ** 2))
-    seen = []
+    little = np.array([0.1 * usual * abs(found["J"].change)])
+    seen, clear = [], []
     for k in range(604, 640):
         part = _samples(engine, 640 * 20)[20 * k : 20 * k + 20]
         nothing = np.zeros((0, 1))
@@ -266,10 +267,15 @@ def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> N
         shows = compared.shows(found["J"])
         assert shows is not None
         seen.append(bool(shows[0]))
+        # less than it usually does, as where no controller works against it, and still much
+        more = compared.shows(found["J"], little)
+        assert more is not None
+        clear.append(bool(more[0]))
         assert compared.shows(found["w0"]) is None
         assert compared.explained(history, faults) == list(found.values())
     assert seen == (np.abs(slopes[604:]) >= 0.3 * usual).tolist()
-    assert True in seen and False in seen
+    assert clear == (np.abs(slopes[604:]) > 0.1 * usual).tolist()
+    assert True in seen and False in seen and sum(clear) > sum(seen)
 
 
 def test_judgements_come_with_an_eighth_more_rows(monkeypatch: pytest.MonkeyPatch) -> None:

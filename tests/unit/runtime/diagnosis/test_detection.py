@@ -80,7 +80,7 @@ def _alarm(detection: Detection, size: float, rows: int = 6) -> None:
 def _quiet(detection: Detection, value: float = 0.0, shows: Mask | None = None) -> int:
     """Rows after which it is over."""
     for rows in range(1, 200):
-        if detection.over(_row(value, value), _LIMITS, lambda: shows):
+        if detection.over(_row(value, value), _LIMITS, lambda _: shows):
             detection.clear()
             assert not detection.alarmed and detection.levels() == {}
             return rows
@@ -145,9 +145,16 @@ def test_rows_in_which_the_fault_would_not_show_do_not_tell_that_it_is_over() ->
     detection = Detection(["r1", "r2"], 3)
     _alarm(detection, 20.0)
     unmoved, moved = np.array([False, False]), np.array([True, True])
-    assert not any(detection.over(_row(0.0, 0.0), _LIMITS, lambda: unmoved) for _ in range(10))
-    rows = [detection.over(_row(0.0, 0.0), _LIMITS, lambda: moved) for _ in range(2)]
+    assert not any(detection.over(_row(0.0, 0.0), _LIMITS, lambda _: unmoved) for _ in range(10))
+    asked: list[list[float]] = []
+
+    def shows(clear: Array) -> Mask:
+        asked.append(clear.tolist())
+        return moved
+
+    rows = [detection.over(_row(0.0, 0.0), _LIMITS, shows) for _ in range(2)]
     assert rows[-1]
+    assert asked == 2 * [(_row(0.0, 0.0).bound + _LIMITS[:, 0] * _LIMITS[:, 2]).tolist()]
     other = Detection(["r1", "r2"], 3)
     _alarm(other, 20.0)
     assert 20 < _quiet(other, shows=unmoved) < 60, "but it does not last for ever"

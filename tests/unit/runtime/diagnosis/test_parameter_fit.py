@@ -540,3 +540,29 @@ model Cell {
     (left,) = found.left
     behind = {"nothing": 0.0, "no number": 25.0}.get(broken, 20.0)
     assert left.lost == pytest.approx(behind, abs=1.0)  # one time constant is bridged
+
+
+def test_what_nothing_tells_is_asked_for_where_it_is_as_declared() -> None:
+    """At one pressure a pump and its leak are not told apart, and a fit goes anywhere along that.
+
+    There a relief valve is open or shut all the time, and its setting, which the log tells of, was
+    said not to be told and kept as declared.
+    """
+    text = """bg 1
+    model M {
+        param q = 1; param leak = 0.02; param set = 10; param kr = 2; param C = 0.05
+        Sf:pump = q
+        0:s { <- pump; -> R:leak { f = leak*e }; -> R:relief { f = kr*max(e - set, 0) }; -> C:C }
+        s -> De:p
+        s -> 1:o { -> Se:load; -> Df:out }
+    }"""
+    p = 9.7 + 0.3 * np.sin(5.0 * TIME) + 0.09 * np.sin(17.0 * TIME)
+    slope = 1.5 * np.cos(5.0 * TIME) + 1.53 * np.cos(17.0 * TIME)
+    out = 1.05 - 0.021 * p - 2.2 * np.maximum(p - 9.8, 0.0) - 0.05 * slope
+    found = fitted(
+        text, ["q", "leak", "set", "kr", "C"],
+        p=p + noise(0.2, 1), out=out + noise(0.02, 2), load=0.0 * TIME,
+    )  # fmt: skip
+    assert abs(found.values["set"] - 9.8) < 0.08
+    assert abs(found.values["kr"] - 2.2) < 0.3
+    assert not any(c.parameters == ("set",) for c in found.combinations)

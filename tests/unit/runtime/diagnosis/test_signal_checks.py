@@ -39,14 +39,18 @@ def test_healthy_signals_are_not_unusual(seed: int) -> None:
     assert _looked(_signals(seed)) == []
 
 
-@pytest.mark.parametrize(("column", "name", "size"), [(0, "y", 1.0), (1, "q", 1.0), (2, "T", 2.0)])
-def test_a_spike_is_told_with_its_time(column: int, name: str, size: float) -> None:
+@pytest.mark.parametrize(("column", "name", "size", "at"), [
+    (0, "y", 1.0, 2510), (1, "q", 1.0, 2510), (2, "T", 2.0, 2510),
+    (1, "q", 1.0, 2498), (2, "T", 2.0, 2498),  # the end of a row, told with the next one
+])  # fmt: skip
+def test_a_spike_is_told_with_its_time(column: int, name: str, size: float, at: int) -> None:
     samples = _signals(3)
-    samples[2510, column] += size
+    usual = np.ptp(samples[:2475, column])
+    samples[at, column] += size
     (one,) = _looked(samples)
     assert (one.signal, one.kind) == (name, "spike")
-    assert one.since == pytest.approx(2510 * _STEP, abs=1.5 * _STEP)
-    assert one.now * np.ptp(samples[:2525, column]) == pytest.approx(size, rel=0.15)
+    assert one.since == pytest.approx(at * _STEP, abs=1.5 * _STEP)
+    assert one.now * usual == pytest.approx(size, rel=0.15)
     assert one.before < 0.5 * one.now
 
 
