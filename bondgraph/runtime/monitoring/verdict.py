@@ -150,6 +150,11 @@ def described(verdict: Verdict) -> str:
     >>> print(described(Verdict("fault", 5.2, 5.03, {"r2": 3.14}, ("J", "f"), (
     ...     Candidate("f", 2.38e-6, "N.m.s/rad", 0.8), Candidate("J", None, "kg.m^2", 0.2)))))
     J or f since 5.030 s: f (80 %, +2.38e-06 N.m.s/rad) or J (20 %); r2 at 3.1 times its threshold
+
+    What no sample tells, many rows do:
+
+    >>> print(described(Verdict("update", 5.2, 5.03, {"r2": 0.4}, ("J",))))
+    J since 5.030 s; r2 in many rows, at 0.4 times its threshold at most
     """
     if verdict.group:
         text = listed(verdict.group, "or")
@@ -203,7 +208,11 @@ def _since(verdict: Verdict) -> str:
 
 
 def _levels(verdict: Verdict) -> str:
-    parts = [f"{n} at {_times(v)} its threshold" for n, v in verdict.residuals.items()]
+    parts = [
+        f"{n} at {_times(v)} its threshold" if v > 1.0
+        else f"{n} in many rows, at {_times(v)} its threshold at most"
+        for n, v in verdict.residuals.items()
+    ]  # fmt: skip
     return "; " + listed(parts, "and") if parts else ""
 
 
