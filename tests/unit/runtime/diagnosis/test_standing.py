@@ -136,7 +136,7 @@ def _run(seed: int, leak: float = 0.0, rows: int = 1500) -> Array:
 def _tuning() -> Tuning:
     engine = tank().engine()
     logs = [_run(100 + k) for k in range(5)]
-    tuned = tune(engine, tank().diagnosis_model, logs, tank().program.digest, 1.0)
+    tuned = tune(engine, tank().diagnosis_model, logs, tank().program.digest, 1.0, window=100.0)
     return tuned.tuning
 
 
@@ -153,7 +153,7 @@ def test_a_run_that_stands_elsewhere_is_well() -> None:
     """By up to 2 deviations of the places that the logs of the tuning stood at."""
     (limit,) = _tuning().limits.values()
     assert limit.apart > 3.0 * limit.sigma
-    for seed in range(5):
+    for seed in range(10):
         assert not [v for v in _watched(_run(seed)) if v.event == "fault"], seed
 
 
