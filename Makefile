@@ -11,7 +11,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs site wheel bench vscode edits update fuzz random real mutants faults kills account vendored clean
+.PHONY: help run demo robots test check lint types imports docs site wheel bench vscode edits update fuzz random real mutants faults kills judged account vendored clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -48,7 +48,7 @@ demo: $(VENV)/run.stamp ## the paper's experiments: simulated, watched, written 
 # Side by side, a file at a time: what the tests of a file share is made once. Their own `make` is
 # none of this one's jobs.
 test: $(VENV)/dev.stamp ## all tests
-	env -u MAKEFLAGS -u MFLAGS $(BIN)/python -m pytest -n $(or $(JOBS),auto) --maxprocesses 8 --dist loadfile --durations 60 --durations-min 5 $(TESTS)
+	env -u MAKEFLAGS -u MFLAGS $(BIN)/python -m pytest -n $(or $(JOBS),auto) --maxprocesses 8 --dist loadfile --no-loadscope-reorder --durations 60 --durations-min 5 $(TESTS)
 
 check: lint types imports test site wheel ## all that CI runs
 
@@ -125,6 +125,9 @@ faults: $(VENV)/dev.stamp ## every writer, killed or failed at every operation o
 
 kills: $(VENV)/dev.stamp ## monitors of every source, each killed 200 times at random moments; a quarter of an hour
 	$(BIN)/python -m tests.kills --times 200 $(if $(SEED),--seed $(SEED))
+
+judged: $(VENV)/dev.stamp ## more random plants before the judge of tests/adversary; some minutes
+	BONDGRAPH_MORE=1 $(BIN)/python -m pytest -n 2 tests/adversary -k test_a_random_graph
 
 account: $(VENV)/dev.stamp ## an hour at 1 kHz with a disturbance every minute: the account adds up; some minutes
 	$(BIN)/python -m tests.account $(if $(SEED),--seed $(SEED))

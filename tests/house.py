@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -33,8 +34,9 @@ class Module(NamedTuple):
     tree: ast.Module
 
 
+@cache
 def modules() -> list[Module]:
-    """All files of the package."""
+    """All files of the package, read at the first call."""
     found = []
     for file in sorted((ROOT / "bondgraph").rglob("*.py")):
         parts = file.relative_to(ROOT).with_suffix("").parts

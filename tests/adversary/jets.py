@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import mpmath
 import sympy
 from mpmath import mpf
+from mpmath.libmp import from_man_exp
 
 mpmath.mp.dps = 40
 Jet = list[Any]  # the Taylor coefficients, lowest first
@@ -26,16 +28,32 @@ def scale(c: Any, a: Jet) -> Jet:
 
 
 def mul(a: Jet, b: Jet) -> Jet:
+    """Each coefficient is summed exactly and rounded once, as `mpmath.fdot` does, but on integers:
+    products of series are most of what the judge computes."""
     n = min(len(a), len(b))
-    rows = [i for i in range(n) if a[i]]
-    return [mpmath.fsum(a[i] * b[k - i] for i in rows if i <= k) for k in range(n)]
+    one, other = _whole(a[:n]), _whole(b[:n])
+    if one is None or other is None:
+        return [mpmath.fdot([(a[i], b[k - i]) for i in range(k + 1)]) for k in range(n)]
+    (x, low), (y, lower), prec = one, other, mpmath.mp.prec
+    sums = [sum(map(operator.mul, x[: k + 1], y[k::-1])) for k in range(n)]
+    return [mpmath.mp.make_mpf(from_man_exp(s, low + lower, prec, "n")) for s in sums]
+
+
+def _whole(a: Jet) -> tuple[list[int], int] | None:
+    """Integers and an exponent of two that are the same numbers; None where they are not finite."""
+    parts = [getattr(x, "_mpf_", (0, 0, 1, 0)) for x in a]
+    if any(exp and not man for _, man, exp, _ in parts):
+        return None
+    low = min((exp for _, man, exp, _ in parts if man), default=0)
+    shifted = [man << (exp - low) if man else 0 for _, man, exp, _ in parts]
+    return [-x if sign else x for x, (sign, *_) in zip(shifted, parts, strict=True)], low
 
 
 def div(a: Jet, b: Jet) -> Jet:
     n = min(len(a), len(b))
     out: Jet = []
     for k in range(n):
-        out.append((a[k] - mpmath.fsum(out[i] * b[k - i] for i in range(k))) / b[0])
+        out.append((a[k] - mpmath.fdot([(out[i], b[k - i]) for i in range(k)])) / b[0])
     return out
 
 
@@ -55,7 +73,7 @@ def _through(a: Jet, f0: Any, slope: Callable[[Jet], Jet]) -> Jet:
     rate = der(a)
     for k in range(1, len(a)):
         s = slope(out)
-        out.append(mpmath.fsum(s[i] * rate[k - 1 - i] for i in range(k)) / k)
+        out.append(mpmath.fdot([(s[i], rate[k - 1 - i]) for i in range(k)]) / k)
     return out
 
 
@@ -95,8 +113,8 @@ def sincos(a: Jet, hyperbolic: bool = False) -> tuple[Jet, Jet]:
     s, c = [s0], [c0]
     rate = der(a)
     for k in range(1, len(a)):
-        ds = mpmath.fsum(c[i] * rate[k - 1 - i] for i in range(k)) / k
-        dc = mpmath.fsum(s[i] * rate[k - 1 - i] for i in range(k)) / k
+        ds = mpmath.fdot([(c[i], rate[k - 1 - i]) for i in range(k)]) / k
+        dc = mpmath.fdot([(s[i], rate[k - 1 - i]) for i in range(k)]) / k
         s.append(ds)
         c.append(dc if hyperbolic else -dc)
     return s, c

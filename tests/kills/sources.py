@@ -88,7 +88,7 @@ class File(Feeder):
     """A log that is there; of several blocks, so that there are positions between."""
 
     keeps = True
-    seconds = 40.0
+    seconds = 25.0
 
     def __init__(self, folder: Path, log: Log) -> None:
         super().__init__(folder, log)

@@ -21,7 +21,8 @@ from tests.real.plant import course
 from tests.real.run import outcome
 from tests.real.series import Program, prepare, sound
 
-_SAMPLE = range(200, 204)
+#: Plants that are judged within a second or so each; `make real` draws two thousand.
+_SAMPLE = (201, 203, 204, 207, 208, 209)
 
 
 def by_hand(

@@ -80,6 +80,10 @@ class ShownSizes:
         # each as what may jump; behind them those that need not
         self._lasting = [h for h in all_ if h.fault in model.dynamic]
         self._ways = [*all_, *self._lasting]
+        tolerances, nominal = model.tolerances, model.nominal
+        self._tolerated = np.array([
+            tolerances.get(h.fault, 0.0) * abs(nominal.get(h.fault, 0.0)) for h in self._ways
+        ])
         self._found: list[list[_Seen]] = [[] for _ in self._ways]
 
     def add(self, samples: Array, whole: WholeThresholds) -> None:
@@ -98,8 +102,10 @@ class ShownSizes:
                 slopes = np.concatenate([slopes, past.run(part)], axis=1)
                 behind.run(samples[begin - start : begin - start + self._length])
             batch, _, _ = whole.run(part)
-            for k, way in enumerate(self._ways):
-                self._found[k].append(self._seen(way, slopes[:, k], batch, engine.sample_time))
+            if self._ways:
+                seen = self._seen(slopes, batch, engine.sample_time)
+                for own, one in zip(self._found, seen, strict=True):
+                    own.append(one)
 
     def shown(self) -> tuple[Shown, ...]:
         """What can be seen of each hypothesis, in the order of all."""
@@ -115,48 +121,50 @@ class ShownSizes:
         """By residual and fault, from which size on the fault shows (see `_by_fault`)."""
         return _by_fault(self._ways, self._found, self._names)
 
-    def _seen(
-        self, hypothesis: Hypothesis, moved: Array, batch: Batch, sample_time: float
-    ) -> _Seen:
-        slopes, own = np.abs(moved), self._table
-        share = self._model.tolerances.get(hypothesis.fault, 0.0)
-        tolerated = share * abs(self._model.nominal.get(hypothesis.fault, 0.0)) * slopes
-        room = 2.0 * batch.bound - np.minimum(tolerated, batch.bound)
+    def _seen(self, moved: Array, batch: Batch, sample_time: float) -> list[_Seen]:
+        """Of one window, what shows of each way; `moved` is (n, ways, residuals)."""
+        slopes, own, bound = np.abs(moved), self._table, batch.bound[:, None]
+        room = 2.0 * bound - np.minimum(self._tolerated[:, None] * slopes, bound)
         top = own[:, 2] * own[:, 0]
-        shows = batch.valid & np.isfinite(top)
+        shows = (batch.valid & np.isfinite(top))[:, None]
         least = _size(room + top, slopes, shows)
-        sure = _size(np.broadcast_to(2.0 * self._rigid + top, slopes.shape), slopes, shows)
-        at, residual = np.unravel_index(int(np.argmin(least)), least.shape)
-        return _Seen(
-            float(least[at, residual]),
-            (int(at) + 1) * sample_time,
-            int(residual),
-            least.min(axis=0),
-            sure.min(axis=0),
-            self._course(np.where(shows, moved, 0.0), room),
-        )
+        sure = _size(2.0 * self._rigid + top, slopes, shows).min(axis=0)
+        course = self._course(np.where(shows, moved, 0.0), room)
+        found = []
+        for k in range(len(self._ways)):
+            of_way = least[:, k]
+            at, residual = np.unravel_index(int(np.argmin(of_way)), of_way.shape)
+            found.append(_Seen(
+                float(of_way[at, residual]),
+                (int(at) + 1) * sample_time,
+                int(residual),
+                of_way.min(axis=0),
+                sure[k],
+                course[:, k],
+            ))
+        return found
 
     def _course(self, moved: Array, room: Array) -> Array:
         """The smallest change that has shown at each of so many times, by a sample or by a sum.
 
-        Both are beside a level that is followed (see `Levels` and `Cusum`).
+        Both are beside a level that is followed (see `Levels` and `Cusum`). Of each way.
         """
         own, level = self._table, self._level
         count = len(moved) // self._every
-        deviation, share = (np.repeat(x, self._every, axis=0)[: len(moved)] for x in level)
+        deviation, share = (np.repeat(x, self._every, axis=0)[: len(moved), None] for x in level)
         beyond = own[:, 2] * np.hypot(own[:, 0], deviation)
-        course = _size(room + beyond, np.abs(moved * share), np.isfinite(beyond)).min(axis=1)
+        course = _size(room + beyond, np.abs(moved * share), np.isfinite(beyond)).min(axis=2)
         unit = np.where(own[:, 6] > 0.0, own[:, 6], own[:, 0] * np.sqrt(own[:, 5]))
         rows, rooms = (
-            x[: count * self._every].reshape(count, self._every, len(own)).mean(axis=1)
+            x[: count * self._every].reshape(count, self._every, *x.shape[1:]).mean(axis=1)
             for x in (moved * share, room + UNKNOWN * deviation)
         )
         need = own[:, 3] * unit + np.cumsum(rooms + 0.5 * unit, axis=0)
         sums = _size(need, np.abs(np.cumsum(rows, axis=0)), np.isfinite(need))
         ends = slice(self._every - 1, count * self._every, self._every)
-        course[ends] = np.minimum(course[ends], sums.min(axis=1, initial=math.inf))
+        course[ends] = np.minimum(course[ends], sums.min(axis=2, initial=math.inf))
         times = np.ceil(np.arange(1, _TIMES + 1) * len(course) / _TIMES).astype(int) - 1
-        return np.asarray(np.minimum.accumulate(course)[times])
+        return np.asarray(np.minimum.accumulate(course, axis=0)[times])
 
 
 def _size(need: Array, slopes: Array, shows: Mask) -> Array:

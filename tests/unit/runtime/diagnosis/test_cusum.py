@@ -29,36 +29,47 @@ def _row(*value: float, bound: float = 0.0, valid: bool = True) -> Row:
 
 
 def _alarms(cusum: Cusum, values: Array, limits: Array) -> list[int]:
-    """The rows in which sums come to their heights, of mean and of loudness; they begin anew."""
-    found = []
-    for k, value in enumerate(values.tolist()):
-        if cusum.add(_row(value), limits)[0]:
-            found.append(k)
-            cusum.restart()
+    """The rows in which sums come to their heights, of mean and of loudness; they begin anew.
+
+    `values` have a column for each residual, and a row counts once for each that is too far in it.
+    """
+    found: list[int] = []
+    for k, value in enumerate(values):
+        over = cusum.add(_row(*value), limits)
+        found += [k] * int(over.sum())
+        _restart(cusum, over)
     return found
 
 
+def _restart(cusum: Cusum, over: np.ndarray) -> None:
+    """As `Cusum.restart`, of some residuals: the others are machines of their own here."""
+    for part in (cusum.sums, cusum._peaks, cusum._since):
+        part[:, over] = 0.0
+
+
+def _noisy(seed: int) -> Array:
+    """60 000 rows of noise, as twenty residuals that are watched side by side."""
+    return np.random.default_rng(seed).standard_normal((3000, 20))
+
+
 def test_noise_comes_to_the_height_of_a_mean_as_often_as_wanted() -> None:
-    noise = np.random.default_rng(1).standard_normal(60_000)
     # a variance that is divided by four is never loud: what is left are the sums of the mean
-    limits = _limits()
-    cusum, alarms = Cusum(1, learns=False), 0
-    for value in noise.tolist():
-        cusum.add(_row(value), limits)
-        if cusum.sums[:2].max() > _TOP:
-            cusum.restart()
-            alarms += 1
+    cusum, alarms = Cusum(20, learns=False), 0
+    for value in _noisy(1):
+        cusum.add(_row(*value), _limits(residuals=20))
+        over = cusum.sums[:2].max(axis=0) > _TOP
+        _restart(cusum, over)
+        alarms += int(over.sum())
     assert alarms == pytest.approx(60_000 / _BETWEEN, rel=0.25)
 
 
 def test_noise_comes_to_the_height_of_loudness_no_more_often_than_wanted() -> None:
-    noise = np.random.default_rng(2).standard_normal(60_000)
-    cusum, alarms = Cusum(1, learns=False), 0
-    for value in noise.tolist():
-        cusum.add(_row(value), _limits())
-        if cusum.sums[2, 0] > _TOP + 1.166:
-            cusum.restart()
-            alarms += 1
+    cusum, alarms = Cusum(20, learns=False), 0
+    for value in _noisy(2):
+        cusum.add(_row(*value), _limits(residuals=20))
+        over = cusum.sums[2] > _TOP + 1.166
+        _restart(cusum, over)
+        alarms += int(over.sum())
     # a ratio of likelihoods is above exp(x) no more often than exp(-x) (Ville, 1939)
     assert alarms <= 60_000 / _BETWEEN
 
@@ -69,12 +80,12 @@ def test_noise_comes_to_the_height_of_loudness_no_more_often_than_wanted() -> No
 def test_another_mean_and_another_deviation_are_seen(
     mean: float, deviation: float, soon: int
 ) -> None:
-    late = []
-    for seed in range(40):
-        draw = np.random.default_rng(seed)
-        values = mean + deviation * draw.standard_normal(400)
-        late.append(_alarms(Cusum(1), values, _limits())[0])
-    assert np.median(late) < soon
+    draws = [np.random.default_rng(seed).standard_normal(400) for seed in range(40)]
+    cusum, limits = Cusum(40), _limits(residuals=40)
+    rows = mean + deviation * np.array(draws).T
+    alarms = np.array([cusum.add(_row(*row), limits) for row in rows])
+    assert alarms.any(axis=0).all()
+    assert np.median(alarms.argmax(axis=0)) < soon
 
 
 def test_an_oscillation_is_loud_and_has_no_mean() -> None:
@@ -107,13 +118,11 @@ def _restless(seed: int, count: int) -> Array:
 
 
 def test_peaks_of_a_restless_machine_stretch_the_heights() -> None:
-    limits = _limits()
-    limits[0, 3] = height(1.0, 1.0 / 3000.0)
-    plain, learned = 0, 0
-    for seed in range(3):
-        values = _restless(seed, 12_000)
-        plain += sum(k > 6000 for k in _alarms(Cusum(1, learns=False), values, limits))
-        learned += sum(k > 6000 for k in _alarms(Cusum(1), values, limits))
+    limits = _limits(residuals=3)
+    limits[:, 3] = height(1.0, 1.0 / 3000.0)
+    values = np.stack([_restless(seed, 12_000) for seed in range(3)], axis=1)
+    plain = sum(k > 6000 for k in _alarms(Cusum(3, learns=False), values, limits))
+    learned = sum(k > 6000 for k in _alarms(Cusum(3), values, limits))
     assert learned < 0.6 * plain
 
 

@@ -169,7 +169,7 @@ def test_a_fault_that_moves_nothing_that_is_off_explains_nothing() -> None:
         for kind, unit in (("offset", "count"), ("gain", ""), ("drift", "count/s"))
     )
     for seed in range(12):
-        draw, count = np.random.default_rng(seed), 24 if seed else 10  # few for exact numbers
+        draw, count = np.random.default_rng(seed), 24 if seed else 6  # few for exact numbers
         slopes = (1.0 + 1e-8 * draw.normal(size=(count, 3, 1))) * [[2.0], [1e9], [1e9]]
         rest = 1.0 + 1e-3 * draw.normal(size=(count, 1, 1))
         value = draw.normal(size=(count, 1))

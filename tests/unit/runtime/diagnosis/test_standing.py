@@ -136,7 +136,7 @@ def _run(seed: int, leak: float = 0.0, rows: int = 1500) -> Array:
 def _tuning() -> Tuning:
     engine = tank().engine()
     logs = [_run(100 + k) for k in range(5)]
-    tuned = tune(engine, tank().diagnosis_model, logs, tank().program.digest, 1.0)
+    tuned = tune(engine, tank().diagnosis_model, logs, tank().program.digest, 1.0, window=100.0)
     return tuned.tuning
 
 

@@ -81,7 +81,7 @@ _LOG = "{log}"  # where its path is said
 
 
 @pytest.fixture
-def monitored(capsys: pytest.CaptureFixture[str]) -> Monitored:
+def monitored(capsys: pytest.CaptureFixture[str], kept_models: None) -> Monitored:
     """Runs `bondgraph monitor dc_motor.bg ...` in this process."""
 
     def run(*words: object) -> Outcome:

@@ -22,6 +22,8 @@ from bondgraph.text.checked_line import checked_line
 from tests.unit.runtime.monitoring import motor
 from tests.unit.runtime.monitoring.watch import MOTOR, ROOT, Watch, csv, objects, until
 
+pytestmark = pytest.mark.usefixtures("kept_models")
+
 Start = Callable[..., Watch]
 WARM = ("warm-up", "warm-up")  # filters have settled, noise has been learned
 

@@ -26,6 +26,8 @@ _SPAN = 2**32 / 1e6  # s, of a clock of 32 bits in microseconds
 
 ROBOT = str(ROOT / "models" / "khepera_encoders.bg")
 
+pytestmark = pytest.mark.usefixtures("kept_models")
+
 Disturbance = Callable[[Log], Log]
 
 
