@@ -17,6 +17,7 @@ from difflib import get_close_matches
 from functools import partial
 
 import numpy as np
+from scipy.optimize import least_squares
 from scipy.special import chdtri, stdtrit
 
 from bondgraph.runtime.diagnosis.left_over import follows, instruments
@@ -39,11 +40,6 @@ from bondgraph.text.tuples import NamedTuple
 _ROUNDS = 4  # of weights from what is left, and parameters from weights
 _ASKED = 3  # times that it is asked what nothing tells
 _STEP = 1e-3  # relative, of central differences
-_STEPS = 50  # of Newton's method, at most
-_HALVES = 20  # of a step that takes off too little
-_PROMISED = 1e-4  # share of what it promises that it has to take off (Armijo 1966)
-_ENOUGH = 1e-4  # squares of noise: a hundredth of a deviation of what is told
-_NOISY = 0.98  # share of a slope that is noise: with more of it a step is no longer
 _WIDE = 10.0  # deviation of a parameter that no log tells, relative to its value
 _TOLD = 0.3  # relative deviation below which a parameter is told
 _LATE = 1.0  # samples by which what jumps may be late: deviation
@@ -448,19 +444,14 @@ def _rough(differences: Sequence[Array], order: int) -> float:
 
 
 def _inverse(curved: Array, spread: Array) -> Array:
-    """The inverse of a curvature (p, p) and what is known before, which is `spread` (p,)."""
-    root = _root(curved, spread)
-    return np.asarray(root.T @ root)
-
-
-def _root(curved: Array, spread: Array) -> Array:
-    """R such that R' R is this inverse.
+    """The inverse of a curvature (p, p) and what is known before, which is `spread` (p,).
 
     In units of the spread that is one, and so no sum is singular, however well the logs tell.
     """
     wide = np.diag(spread)
     values, vectors = np.linalg.eigh(wide @ curved @ wide)
-    return np.asarray((vectors / np.sqrt(1.0 + np.maximum(values, 0.0))).T @ wide)
+    vectors = wide @ vectors
+    return np.asarray((vectors / (1.0 + np.maximum(values, 0.0))) @ vectors.T)
 
 
 class _Slopes(NamedTuple):
@@ -618,57 +609,19 @@ class _Problem:
         return float(np.sum(self._normal([at])[0] ** 2))
 
     def solve(self, at: Array) -> Array:
-        """The parameters that leave least, with the weights as they are.
+        """The parameters that leave least, with the weights as they are."""
 
-        By Newton's method with the curvature that the covariance has too: what noise does to the
-        slopes is none. With all of it, as Gauss and Newton have, steps are ten times too short
-        where parameters are hardly told, as nine tenths of their slopes are noise. Steps end at
-        bounds, and where the next one would take off less than a ten-thousandth of what one row of
-        noise leaves.
-        """
-        pins = self._pins.T @ self._pins
-        prior = np.diag(self._spread**-2.0) + pins
-        for _ in range(_STEPS):
-            s = self._slopes(at)
-            slope = np.einsum("atr,tr->a", s.by, s.value) + prior @ at
-            stays = (at <= self._low) & (slope > 0.0) | (at >= self._high) & (slope < 0.0)
-            free = np.ix_(~stays, ~stays)
-            whole, noise = self._curvature(at, s)
-            root = _root(whole[free] + pins[free], self._spread[~stays])
-            share, ways = np.linalg.eigh(root @ noise[free] @ root.T)
-            along = ways.T @ root @ slope[~stays]
-            told = 1.0 - np.clip(share, 0.0, _NOISY)
-            gain = float(np.sum(along**2 / told))
-            if gain < _ENOUGH:
-                break
-            step = np.zeros_like(at)
-            step[~stays] = -root.T @ (ways @ (along / told))
-            after = self._shorter(at, step, gain, prior)
-            if after is None:
-                break
-            at = after
-        return at
+        def left(x: Array) -> Array:
+            return np.concatenate([self._normal([x])[0].ravel(), x / self._spread, self._pins @ x])
 
-    def _shorter(self, at: Array, step: Array, gain: float, prior: Array) -> Array | None:
-        """Where a step ends that takes off enough of what it promises, None if none does."""
+        def slopes(x: Array) -> Array:
+            by = self._slopes(x).by.reshape(len(x), -1).T
+            return np.vstack([by, np.diag(1.0 / self._spread), self._pins])
 
-        def cost(x: Array) -> float:
-            return 0.5 * float(np.sum(self._normal([x])[0] ** 2) + x @ prior @ x)
-
-        before = cost(at)
-        for k in range(_HALVES):
-            after = np.clip(at + 0.5**k * step, self._low, self._high)
-            if cost(after) < before - _PROMISED * 0.5**k * gain:
-                return np.asarray(after)
-        return None
-
-    def _curvature(self, at: Array, s: _Slopes) -> tuple[Array, Array]:
-        """That of the sum of squares by the slopes, and what of it is of the noise in them."""
-        _, _, whole, noise = self._normal([at])
-        error = self._mask.sum(axis=0) * (1.0 - noise[0] / np.maximum(whole[0], 1e-300)) / 4.0
-        of_noise = np.einsum("atr,btr->ab", s.added_by, s.added_by)
-        of_noise += np.einsum("ar,br,r->ab", s.log_by, s.log_by, error)
-        return np.einsum("atr,btr->ab", s.by, s.by), of_noise
+        found = least_squares(
+            left, at, slopes, bounds=(self._low, self._high), x_scale="jac", max_nfev=50
+        )
+        return np.asarray(found.x)
 
     def pin(self, directions: Array) -> None:
         """Keep to the nominal values along directions (n, p) of the parameters."""
@@ -756,8 +709,12 @@ class _Problem:
         slopes themselves tells nothing of the parameters and is taken off the curvature.
         """
         s = self._slopes(at)
-        whole, of_noise = self._curvature(at, s)
-        curved = whole - of_noise
+        _, _, whole, noise = self._normal([at])
+        rows = self._mask.sum(axis=0)
+        error = rows * (1.0 - noise[0] / np.maximum(whole[0], 1e-300)) / 4.0
+        curved = np.einsum("atr,btr->ab", s.by, s.by)
+        curved -= np.einsum("atr,btr->ab", s.added_by, s.added_by)
+        curved -= np.einsum("ar,br,r->ab", s.log_by, s.log_by, error)
         own = np.einsum("tr,atr->ta", s.value, s.by)
         mine = np.einsum("tr,atr->ta", s.added, s.added_by)
         scatter = newey_west(own) + newey_west(mine)
