@@ -389,10 +389,10 @@ def fittable(
                     f"{name} counts from where it stood at the start: it has no offset to be fitted"
                 )
         elif name not in names and name in engine.parameters and name not in faults:
+            do = "leave it out" if tolerances.get(name) else "say what it is in these logs (--set)"
             raise ValueError(
                 f"{name} is used by no law, but for where something begins or for other numbers:"
-                " say what it is in these logs (--set); a start that nobody knows is found for"
-                " each log by itself once the model gives it a tolerance"
+                f" {do}; a start that has a tolerance in the model is found for each log by itself"
             )
         elif name not in names:
             close = get_close_matches(name, [*names, *signals], 3, 0.5)

@@ -354,8 +354,12 @@ model M {
     0:t { <- Sf:I; -> De:V; -> 1:c }
     c { -> R:R; -> C:s(q0 = begin) { e = a*q^2 } }
 }"""
-    with pytest.raises(ValueError, match="begin is used by no law, but for where something begins"):
+    said = "begin is used by no law, but for where something begins"
+    with pytest.raises(ValueError, match=f"{said} or for other numbers: say what it is"):
         bondgraph.compile(text=cell, rate=RATE).fit({"a": short}, ["begin"])
+    loose = cell.replace("3 C", "3 C +- 50%")
+    with pytest.raises(ValueError, match=f"{said} or for other numbers: leave it out; a start"):
+        bondgraph.compile(text=loose, rate=RATE).fit({"a": short}, ["begin"])
 
 
 def test_a_whitening_filter_and_its_sum_are_those_of_theory() -> None:
