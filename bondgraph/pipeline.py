@@ -711,11 +711,11 @@ class Compilation:
         """The code of residuals and thresholds, to be loaded and run here; None without these."""
         from bondgraph.backends.runnable import runnable
 
-        bounds = self._bounds_of(self._known_starts)
+        bounds = self._bounds_of(self._watched_thresholds)
         return runnable(self.program_with_readings), None if bounds is None else runnable(bounds)
 
     @property
-    def _known_starts(self) -> Program | None:
+    def _watched_thresholds(self) -> Program | None:
         """The thresholds of a machine whose unknown starts the samples tell, as a watch does."""
         from bondgraph.runtime.diagnosis.remembered import memories
 

@@ -151,7 +151,7 @@ def from_the_start(
 def counted(
     engine: Engine, memories: Sequence[Memory], samples: Array, later: bool, told: Container[str]
 ) -> Array:
-    """The same without residuals of whose unknown starts not all are `told`."""
+    """As `from_the_start`, without residuals of whose unknown starts not all are `told`."""
     found = from_the_start(engine, memories, samples, later)
     for memory in memories:
         if not all(name in told for name in unknown_starts([memory], later)):

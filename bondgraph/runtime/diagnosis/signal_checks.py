@@ -166,7 +166,7 @@ class SignalChecks:
         bottom = np.fmin(self._range[0], own.min(axis=0))
         span = top - bottom
         sizes = self._unusual(far, rough, moved, runs, span, self._matters(rough, suspects))
-        sizes["stuck"][0][self._rests(own[-1], runs, top, bottom)] = False
+        sizes["stuck"][0][self._rests(own[-1], runs, top, bottom, suspects)] = False
         for kind, (out, now, before) in sizes.items():
             for k in np.flatnonzero(out & (self._samples >= _ENOUGH)).tolist():
                 late = len(with_last) - 1 - where[k] if kind == "spike" else len(own) - 1
@@ -186,11 +186,13 @@ class SignalChecks:
             self._learn(with_last, len(own), far, rough, moved, ended, changes)
         return found, driven
 
-    def _rests(self, last: Array, runs: Array, top: Array, bottom: Array) -> Mask:
+    def _rests(
+        self, last: Array, runs: Array, top: Array, bottom: Array, suspects: Collection[str]
+    ) -> Mask:
         """Which signals may stand still: commands at an end of what they do, and sensors at theirs
         that came to rest with such a command, or ran out behind it: a machine that is switched off
         has no noise. A sensor that dies while a command has stood at its end for long is none of
-        these.
+        these. On a ramp it looks like one that ran out: whether it is, residuals say.
         """
         ends = ((last >= top) | (last <= bottom)) & (top > bottom)
         commands = ends & self._drive
@@ -199,6 +201,7 @@ class SignalChecks:
         steps = np.sign(last - self._path[0]) * np.diff(self._path, axis=0, append=last[None])
         ran_out = (steps >= 0.0).all(axis=0) & (steps.max(axis=0) > 0.0) & commands.any()
         ran_out &= steps[-1] <= steps[:-1].max(axis=0)
+        ran_out &= [name not in suspects for name in self._names]
         return np.asarray(commands | (ends & (together | ran_out)))
 
     def _begun(self, found: Mapping[str, Unusual], driven: Container[str]) -> list[Unusual]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -179,13 +180,15 @@ def _fan(seed: int) -> Array:
     return np.column_stack([fan, power])
 
 
-def _fan_looked(samples: Array, start: int = 0) -> list[Unusual]:
+def _fan_looked(
+    samples: Array, start: int = 0, suspects: Collection[str] = ()
+) -> list[Unusual]:
     checks = SignalChecks(["fan", "P"], [0, 1], _STEP, inputs=("fan",))
     rows = [(k, samples[k : k + _ROW]) for k in range(start, len(samples) - _ROW + 1, _ROW)]
     return [
         one
         for k, row in rows
-        for one in checks.row((k + _ROW - 1) * _STEP, row, not checks.active)
+        for one in checks.row((k + _ROW - 1) * _STEP, row, not checks.active, suspects)
     ]
 
 
@@ -211,6 +214,20 @@ def test_a_rotor_that_runs_out_is_not_stuck_and_one_that_is_told_to_stand_is(
         speed[t >= 28.2] = 0.0
     told = [one for one in _fan_looked(np.column_stack([on, speed])) if one.kind == "stuck"]
     assert [one.signal for one in told] == (["P"] if dies else [])
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("suspect", [False, True])
+def test_a_position_that_dies_on_its_way_is_told_where_residuals_see_it(
+    seed: int, suspect: bool
+) -> None:
+    """It goes on at full speed, and its reading stays where it had come furthest."""
+    t, draw = np.arange(4000) * _STEP, np.random.default_rng(seed)
+    speed = np.where(t < 20.0, 0.4 * np.sin(t), 1.0)
+    way = np.cumsum(speed) + 0.05 * draw.normal(size=4000)
+    way[2800:] = way[2800]
+    told = _fan_looked(np.column_stack([speed, way]), suspects=["P"] if suspect else [])
+    assert [one.kind for one in told if one.signal == "P"] == (["stuck"] if suspect else [])
 
 
 @pytest.mark.parametrize("seed", range(5))
