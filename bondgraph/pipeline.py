@@ -47,8 +47,8 @@ if TYPE_CHECKING:
     from bondgraph.picture import Picture
     from bondgraph.runtime.diagnosis.accepted_faults import AcceptedFaults
     from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
+    from bondgraph.runtime.diagnosis.fitted import Fitted
     from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
-    from bondgraph.runtime.diagnosis.parameter_fit import Fitted
     from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.log import Log
     from bondgraph.runtime.monitoring.columns import Mapped

@@ -9,7 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Wanted, fit
+from bondgraph.runtime.diagnosis.errors_in_variables import Wanted
+from bondgraph.runtime.diagnosis.fitted import Fitted
+from bondgraph.runtime.diagnosis.parameter_fit import fit
 from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.tuning import FASTEST
 from bondgraph.runtime.monitoring.clock import Piece

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.parameter_fit import Fitted
+from bondgraph.runtime.diagnosis.fitted import Fitted
 from bondgraph.runtime.diagnosis.remembered import Memory, counted
 from bondgraph.runtime.diagnosis.tuning import kappa
 from bondgraph.runtime.log import Array

@@ -92,5 +92,7 @@ def _functions(inputs: Sequence[Array], degree: int) -> list[Array]:
 def _basis(table: Array) -> Array:
     """Orthonormal columns for those of a table, each of which counts alike."""
     size = np.linalg.norm(table, axis=0)
-    vectors, values, _ = np.linalg.svd(table / np.where(size > 0, size, 1.0), full_matrices=False)
-    return np.asarray(vectors[:, values > _APART * values.max(initial=0.0)])
+    alike = table / np.where(size > 0, size, 1.0)
+    squares, turn = np.linalg.eigh(alike.T @ alike)  # of few columns: far cheaper than of the table
+    there = squares > _APART**2 * squares.max(initial=0.0)
+    return np.asarray(alike @ (turn[:, there] / np.sqrt(squares[there])))

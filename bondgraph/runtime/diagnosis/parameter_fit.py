@@ -1,12 +1,7 @@
 """Parameters of a machine from logs of it while it was healthy, with how sure they are.
 
 The residuals are the model: with the right parameters nothing is left of them but what the noise
-of the sensors makes. That noise enters together with the parameters (R times a noisy current), so
-that plain least squares would take them too small, or all of them for zero where each term has
-one. Each residual is therefore divided by what the noise makes of it at the same parameters: the
-sum of r(theta)^2 / var r(theta), without a logarithm, is least at the truth (errors in variables,
-Fuller 1987; structured total least squares, De Moor 1993). The variance is measured: the program
-runs over the log and over the log with as much noise once more.
+of the sensors makes.
 """
 
 from __future__ import annotations
@@ -17,245 +12,26 @@ from difflib import get_close_matches
 from functools import partial
 
 import numpy as np
-from scipy.optimize import least_squares
-from scipy.special import chdtri, stdtrit
 
-from bondgraph.runtime.diagnosis.left_over import follows, instruments
-from bondgraph.runtime.diagnosis.remembered import Memory, up_to_gaps
-from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
-from bondgraph.runtime.diagnosis.told_combinations import Combination, combinations, untold
-from bondgraph.runtime.diagnosis.whitening import (
-    LAGS,
-    few_rows,
-    filtered,
-    newey_west,
-    rms,
-    whitening,
+from bondgraph.runtime.diagnosis.errors_in_variables import (
+    LATEST,
+    WIDE,
+    ErrorsInVariables,
+    Wanted,
 )
-from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.diagnosis.fitted import SURE, Delay, Fitted, Fitting, Start
+from bondgraph.runtime.diagnosis.remembered import Memory
+from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
+from bondgraph.runtime.diagnosis.told_combinations import combinations, untold
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.text.tuples import NamedTuple
 
 _ROUNDS = 4  # of weights from what is left, and parameters from weights
 _ASKED = 3  # times that it is asked what nothing tells
-_STEP = 1e-3  # relative, of central differences
-_WIDE = 10.0  # deviation of a parameter that no log tells, relative to its value
 _TOLD = 0.3  # relative deviation below which a parameter is told
-_LATE = 1.0  # samples by which what jumps may be late: deviation
-_LATEST = 1.5  # samples: straight lines take half a one, a sensor that reads at the next takes one
 _AT_BOUND = 0.99  # of that: no more is fitted, and it may be more
-_PINNED = 1e-3  # how far what is not told may be from its nominal value
-_SMALLEST = 1e-6  # of its nominal value: a parameter keeps its sign
-_BLIND = 1e-6  # share of an effect that nothing fitted has too: with less it is not told apart
-_RARE = 1e-3  # probability that some offset is suspected where there is none
-_MATTERS = 0.01  # share of what is left: an offset that explains less is not told
-_SURE = 1.96  # deviations within which 95 % are
-_FAR = 4.0  # deviations beyond which a row is not of this machine
-_MOST = 0.5  # share of what is known of a parameter that may be left out with such rows
-_WRONG = 2.0  # of its noise: with more left of it a residual says that something else is there
-_FOLLOWS = 0.2  # share that follows the inputs, above which that is another law
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
-_SAMPLED = 1e-4  # of the largest term: no sampled law is better
-_NEARLY = 0.05  # share of a residual, or of its noise, that is nearly nothing of it
-_NOTHING = 1e-4  # share of a residual that is no sum of its terms: noise makes more
-_SPANS = 20  # of the log, each of which is asked whether it fits
-
-
-class Fitting(NamedTuple):
-    """One parameter: `value` in SI, and its standard `error`, None where the logs cannot tell it.
-
-    `bound` says that it would have had to change its sign to fit better, `doubted` that what tells
-    it is wrong by more than noise: no error that is reckoned from noise would hold. In 95 of 100
-    further logs it is within the relative `tolerance`; None where that of the model is no wider, or
-    where the logs cannot tell it.
-    """
-
-    name: str
-    nominal: float
-    value: float
-    error: float | None
-    unit: str
-    bound: bool
-    doubted: bool = False
-    tolerance: float | None = None
-
-    @property
-    def interval(self) -> float | None:
-        """Half of the interval that has the truth in 95 of 100 cases."""
-        return None if self.error is None else _SURE * self.error
-
-
-class Span(NamedTuple):
-    """A time of a log, in s, in which a residual is `times` what is usual."""
-
-    log: str
-    start: float
-    end: float
-    times: float
-
-
-class Left(NamedTuple):
-    """What is left of one residual, in so many `rows` as it is valid in.
-
-    `before` and `after` are the root mean square of the filtered residual, at the nominal and at
-    the fitted parameters; `noise` what the sensors make of it. `memory` is the correlation of one
-    row of it with the next once that of the noise is taken off: 0 where nothing else is in it.
-    `follows` is the share of its mean square that functions of the inputs explain (`left_over`),
-    None where that cannot be told. `term` is the root mean square of the largest of its terms.
-    `lost` are the seconds behind gaps, in which nobody knows where what it remembers stood.
-    """
-
-    residual: str
-    rows: int
-    before: float
-    after: float
-    noise: float
-    memory: float
-    follows: float | None
-    spans: tuple[Span, ...]
-    term: float
-    lost: float = 0.0
-
-    @property
-    def nothing(self) -> bool:
-        """Whether it is no more than samples of signals in motion are off by, without any noise."""
-        return self.after <= _SAMPLED * self.term
-
-    @property
-    def explained(self) -> float:
-        """The share of its mean square that the fitted parameters take off."""
-        return 1.0 - (self.after / self.before) ** 2 if self.before else 0.0
-
-    @property
-    def times(self) -> float:
-        """How many times the noise of the sensors it is."""
-        return self.after / self.noise if self.noise else 0.0
-
-    @property
-    def much(self) -> bool:
-        """Whether it is more than noise: a disturbance, or a law that is another."""
-        return self.times > _WRONG
-
-    @property
-    def wrong(self) -> bool:
-        """Whether the law is another: nobody knows by how much its parameters are wrong."""
-        return self.much and (self.follows is None or self.follows > _FOLLOWS)
-
-
-class Delay(NamedTuple):
-    """By how much a signal that jumps is in the log before it acts, in s, with its standard error.
-
-    Below zero it is there too late. A step at a sample is half a sample early where straight lines
-    join samples, one that a sensor reads at the next sample is late: without this, parameters would
-    have to make up for it. What is at its `bound` may be more, for which parameters make up.
-    """
-
-    signal: str
-    value: float
-    error: float
-    bound: bool
-
-
-class Terms(NamedTuple):
-    """What one residual of one log is made of, at the rows (n,) that were fitted, in its unit.
-
-    `term` is the one of the `parameter` that makes most of it, `others` are all others with the
-    sign turned: the residual is the difference. NaN where it is not valid; `time` in s.
-    """
-
-    residual: str
-    parameter: str
-    log: str
-    time: Array
-    term: Array
-    others: Array
-
-
-class Suspect(NamedTuple):
-    """An offset that was not fitted, and would take off a `share` of what is left (mean square).
-
-    Its `value` is in the unit of the signal: what the log has is so much above what is there.
-    """
-
-    signal: str
-    value: float
-    error: float
-    unit: str
-    share: float
-
-
-class Start(NamedTuple):
-    """What the parameter of an unknown start is where a log begins, or `later` behind a gap of it.
-
-    At a `time` in s, in the unit of the parameter; `error` None where the samples cannot tell it.
-    """
-
-    name: str
-    log: str
-    time: float
-    later: bool
-    value: float
-    error: float | None
-    unit: str
-
-    @property
-    def interval(self) -> float | None:
-        """Half of the interval that has the truth in 95 of 100 cases."""
-        return None if self.error is None else _SURE * self.error
-
-
-class Fitted(NamedTuple):
-    """Parameters from so many `logs`; `noise` by signal, as seen or given, `seconds` of use.
-
-    `starts` are where logs begin that nobody knows, each by itself, and what is behind their gaps.
-    `offsets` are those of signals that were asked for, with a nominal value of zero; `suspects`
-    others that would explain what is left, the most likely one first. The filter was of this
-    `bandwidth` (rad/s); with it the relative errors of all that is fitted are in the geometric mean
-    exp(`spread`), what no log tells among them.
-    """
-
-    parameters: tuple[Fitting, ...]
-    starts: tuple[Start, ...]
-    offsets: tuple[Fitting, ...]
-    suspects: tuple[Suspect, ...]
-    combinations: tuple[Combination, ...]
-    left: tuple[Left, ...]
-    delays: tuple[Delay, ...]
-    noise: dict[str, float]
-    seconds: float
-    correlation: Array  # (p, p), of the errors
-    terms: tuple[Terms, ...]
-    bandwidth: float
-    spread: float
-    logs: int
-
-    @property
-    def values(self) -> dict[str, float]:
-        """The fitted values of parameters in SI units, by name."""
-        return {p.name: p.value for p in self.parameters}
-
-    def begun(self, log: str, time: float) -> dict[str, float]:
-        """What was told of the starts of a log, or of what is behind a gap of it at a time (s)."""
-        own = [s for s in self.starts if s.error is not None and (s.log, s.time) == (log, time)]
-        return {s.name: s.value for s in own}
-
-    @property
-    def tolerances(self) -> dict[str, float]:
-        """The relative tolerances that are narrower than those of the model, by name."""
-        return {p.name: p.tolerance for p in self.parameters if p.tolerance is not None}
-
-    @property
-    def offset_values(self) -> dict[str, float]:
-        """The fitted offsets in the units of their signals, by name."""
-        return {p.name: p.value for p in self.offsets}
-
-
-class Wanted(NamedTuple):
-    """What is to be fitted: parameters, and signals whose offsets are."""
-
-    parameters: tuple[str, ...]
-    offsets: tuple[str, ...] = ()
 
 
 def fit(
@@ -277,7 +53,7 @@ def fit(
     """
     seen = {**estimated_noise(engine, [p.samples for _, p in pieces]), **noise}
     runs = ResidualRows(engine, pieces, [seen[k.path] for k in engine.signals], memories)
-    problem = _Problem(runs, free, tolerances)
+    problem = ErrorsInVariables(runs, free, tolerances)
     at = np.zeros(problem.size)
     problem.weigh(at, first=True)
     for k in range(_ROUNDS):
@@ -295,9 +71,9 @@ def fit(
     if any(x.much for x in left):
         deviation = np.hypot(deviation, problem.disturbed(at, [x.much for x in left]))
     told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
-    sound = problem.told_by(at, [x.wrong for x in left])[:count] <= _MOST
+    sound = problem.sound(at, [x.wrong for x in left])
     values = problem.values(at).tolist()
-    further = problem.scale * np.hypot(problem.apart(at), _SURE * deviation)
+    further = problem.scale * np.hypot(problem.apart(at), SURE * deviation)
     own = tuple(
         Fitting(
             name, float(problem.nominal[k]), values[k],
@@ -320,7 +96,7 @@ def fit(
     apart = np.where(deviation > 0, deviation, 1.0)
     time = engine.sample_time
     delays = tuple(
-        Delay(name, d * time, math.sqrt(max(v, 0.0)) * time, abs(d) > _AT_BOUND * _LATEST)
+        Delay(name, d * time, math.sqrt(max(v, 0.0)) * time, abs(d) > _AT_BOUND * LATEST)
         for name, d, v in zip(
             runs.names(runs.late), late.tolist(), np.diag(whole)[count:].tolist(), strict=True
         )
@@ -340,7 +116,7 @@ def fit(
     )  # fmt: skip
 
 
-def _declared(problem: _Problem, at: Array) -> tuple[Array, Array, Array]:
+def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Array]:
     """Where what nothing tells stays as it is declared, the covariance there, and what that is.
 
     A fit goes anywhere along what nothing tells: there a valve may be open all the time, and one
@@ -366,7 +142,7 @@ def _declared(problem: _Problem, at: Array) -> tuple[Array, Array, Array]:
 def _more(covariance: Array, own: Sequence[int]) -> float | None:
     """How many times the motion would tell these parameters; None if nothing tells of them now."""
     deviation = math.sqrt(float(np.linalg.eigvalsh(covariance[np.ix_(own, own)])[-1]))
-    return deviation / _TOLD if deviation < _WIDE / 3.0 else None
+    return deviation / _TOLD if deviation < WIDE / 3.0 else None
 
 
 def fittable(
@@ -441,413 +217,3 @@ def _rough(differences: Sequence[Array], order: int) -> float:
     whole = np.abs(whole[np.isfinite(whole)])
     middle = float(np.median(whole)) if len(whole) else 0.0
     return middle / 0.6745 / math.sqrt(math.comb(2 * order, order))
-
-
-def _inverse(curved: Array, spread: Array) -> Array:
-    """The inverse of a curvature (p, p) and what is known before, which is `spread` (p,).
-
-    In units of the spread that is one, and so no sum is singular, however well the logs tell.
-    """
-    wide = np.diag(spread)
-    values, vectors = np.linalg.eigh(wide @ curved @ wide)
-    vectors = wide @ vectors
-    return np.asarray((vectors / (1.0 + np.maximum(values, 0.0))) @ vectors.T)
-
-
-class _Slopes(NamedTuple):
-    """At some parameters: normalised residuals and added noise, (rows, residuals), with their
-    slopes (p, rows, residuals), and the slopes of the logarithm of the variance (p, residuals)."""
-
-    value: Array
-    added: Array
-    by: Array
-    added_by: Array
-    log_by: Array
-
-
-class _Problem:
-    """Normalised residuals as a function of what is fitted, and of delays in samples.
-
-    Parameters are relative to their nominal values, offsets to how far their signals move.
-    """
-
-    def __init__(
-        self, runs: ResidualRows, free: Wanted, tolerances: Mapping[str, float]
-    ) -> None:
-        self._runs, self._free = runs, (*free.parameters, *runs.starts)
-        self._shared = len(free.parameters)  # those of all logs stand first
-        self.names = (*self._free, *free.offsets)
-        biased = runs.names(runs.biased)
-        self._offset_at = [biased.index(n) for n in free.offsets]
-        self._sizes = runs.sizes(runs.biased)
-        declared = [runs.declared(n) for n in self._free]
-        known = [runs.engine.signals[runs.biased[k]].offset for k in self._offset_at]
-        self.nominal = np.array(declared + known)
-        self.zeros = self.nominal == 0
-        self.zeros[len(declared) :] = True
-        self.scale = np.append(np.abs(declared), self._sizes[self._offset_at])
-        self.size = len(self.names) + len(runs.late)
-        self._low = np.full(self.size, -np.inf)
-        self._high = np.full(self.size, np.inf)
-        for k, value in enumerate(self.nominal):
-            if self.names[k] in runs.starts:
-                continue  # on whichever side it begins
-            if value > 0:
-                self._low[k] = _SMALLEST - 1.0
-            elif value < 0:
-                self._high[k] = 1.0 - _SMALLEST
-        most = max((tolerances.get(n, 0.0) for n in self.names), default=0.0) or 1.0
-        own = np.array([tolerances.get(n, 0.0) / most for n in self.names])
-        wide = _WIDE * np.where(own > 0, np.maximum(own, 0.1), 1.0)
-        self._spread = np.append(wide, np.full(len(runs.late), _LATE))
-        # a delay acts by its slope: a longer one would add a derivative, and its noise, at will
-        self._low[len(self.names) :], self._high[len(self.names) :] = -_LATEST, _LATEST
-        self._pins = np.zeros((0, self.size))
-        self._filters = np.zeros((LAGS + 1, len(runs.engine.residuals)))
-        self._extra = np.zeros(len(runs.engine.residuals))
-        self._weight = np.ones(len(runs.engine.residuals))
-        self._start()
-
-    def _start(self) -> None:
-        """What is known before the first fit: the noise's own filter, scales of zeros, rows."""
-        zeros = np.flatnonzero(self.scale == 0)
-        self.scale[zeros] = 1.0
-        nothing = np.zeros(self.size)
-        values = [self._numbers(nothing), *[{self._free[k]: 1.0} for k in zeros]]
-        small = {n: _STEP * values[0][n] for n in self._free[: self._shared]}
-        still = np.zeros((len(values) + 1, len(self._runs.late) + len(self._runs.biased)))
-        late, off = np.split(still, [len(self._runs.late)], axis=1)
-        clean, added = self._runs.rows([*values, small], late, off)
-        rough = np.sqrt(np.nanmean(added[0] ** 2, axis=0))
-        # the least variance that is reckoned with: sensors that never move tell no noise
-        self._least = (1e-12 * rms(clean[0]) + 1e-150) ** 2
-        for row, k in enumerate(zeros, 1):
-            effect = float(np.nanmax(rms(clean[row] - clean[0]) / np.maximum(rough, 1e-300)))
-            self.scale[k] = 1.0 / effect if effect > 0 else 1.0
-        self._filters[0] = 1.0  # far from the truth what a filter makes larger may be anything
-        self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)
-        self._mask: Mask = np.isfinite(filtered(clean[0] + added[0], self._noise_filters))
-        self._all = self._mask
-        if not self._mask.any():
-            raise ValueError(
-                "no residual is valid in the logs: nothing can be fitted"
-                + up_to_gaps(self._runs.engine.residuals, self._runs.lost)
-            )
-        nearly = rms(clean[-1]) < _NEARLY * np.maximum(rms(clean[0]), rough)
-        self._homogeneous = nearly | self._vanishing()
-
-    def _vanishing(self) -> Mask:
-        """Which residuals some of the parameters can make nothing of, all terms together.
-
-        Such a residual is a sum of its terms by parameters (theorem of Euler on homogeneous
-        functions): where these follow that sum it shrinks as a whole. The sum is exact whatever the
-        noise in it, and no accident where there is some. One with a small term beside them is no
-        such sum, but nearly nothing where all parameters are small: that is asked as well.
-        """
-        value, terms = self._terms(np.zeros(self.size))
-        found = np.zeros(value.shape[1], dtype=np.bool_)
-        for r, good in enumerate(np.isfinite(value).T):
-            own, columns = value[good, r], terms[:, good, r].T
-            columns = columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-            rest = own - columns @ np.linalg.lstsq(columns, own, rcond=1e-9)[0]
-            found[r] = np.linalg.norm(rest) < _NOTHING * np.linalg.norm(own)
-        return found
-
-    def values(self, at: Array) -> Array:
-        """What is fitted at a point, in SI."""
-        return np.asarray(self.nominal + self.scale * at[: len(self.names)])
-
-    def _numbers(self, at: Array) -> dict[str, float]:
-        """The parameters at a point, in SI."""
-        return dict(zip(self._free, self.values(at).tolist(), strict=False))
-
-    def _offsets(self, at: Array) -> Array:
-        """The offsets of all signals that can have one at a point, above those that are known."""
-        found = np.zeros(len(self._runs.biased))
-        found[self._offset_at] = (self.values(at) - self.nominal)[len(self._free) :]
-        return found
-
-    def _rows(self, points: Sequence[Array], more: Array | None = None) -> tuple[Array, Array]:
-        """Rows at points, with further offsets (points, signals)."""
-        delays = np.array([p[len(self.names) :] for p in points])
-        offsets = np.array([self._offsets(p) for p in points])
-        if more is not None:
-            offsets += more
-        return self._runs.rows([self._numbers(p) for p in points], delays, offsets)
-
-    def _normal(
-        self, points: Sequence[Array], more: Array | None = None
-    ) -> tuple[Array, Array, Array, Array]:
-        """Normalised residuals and added noise at points, their variances, the noise's own."""
-        clean, added = self._rows(points, more)
-        mask = self._mask
-        count = np.maximum(mask.sum(axis=0), 1)
-        white = [np.where(mask, filtered(x, self._filters), 0.0) for x in (clean, added)]
-        value, extra = (np.where(np.isfinite(x), x, 0.0) for x in white)
-        noise = (extra**2).sum(axis=-2) / count
-        whole = noise + self._extra
-        root = np.sqrt(np.maximum(whole, self._least))[:, None, :]
-        return value / root / self._weight, extra / root, whole, noise
-
-    def _slopes(self, at: Array) -> _Slopes:
-        size = len(at)
-        around = [at + s * _STEP * np.eye(size)[k] for k in range(size) for s in (1, -1)]
-        value, added, whole, _ = self._normal([at, *around])
-        apart = 2 * _STEP
-        logs = np.log(np.maximum(whole, self._least))
-        return _Slopes(
-            value[0],
-            added[0],
-            (value[1::2] - value[2::2]) / apart,
-            (added[1::2] - added[2::2]) / apart,
-            (logs[1::2] - logs[2::2]) / apart,
-        )
-
-    def cost(self, delays: Array, value: Sequence[float]) -> float:
-        """The sum of squares at values in SI units, inputs so many samples late."""
-        at = np.append((np.asarray(value) - self.nominal) / self.scale, delays)
-        return float(np.sum(self._normal([at])[0] ** 2))
-
-    def solve(self, at: Array) -> Array:
-        """The parameters that leave least, with the weights as they are."""
-
-        def left(x: Array) -> Array:
-            return np.concatenate([self._normal([x])[0].ravel(), x / self._spread, self._pins @ x])
-
-        def slopes(x: Array) -> Array:
-            by = self._slopes(x).by.reshape(len(x), -1).T
-            return np.vstack([by, np.diag(1.0 / self._spread), self._pins])
-
-        found = least_squares(
-            left, at, slopes, bounds=(self._low, self._high), x_scale="jac", max_nfev=50
-        )
-        return np.asarray(found.x)
-
-    def pin(self, directions: Array) -> None:
-        """Keep to the nominal values along directions (n, p) of the parameters."""
-        late = np.zeros((len(directions), self.size - directions.shape[1]))
-        self._pins = np.hstack([directions, late]) / _PINNED
-
-    def weigh(self, at: Array, first: bool = False) -> None:
-        """Rows and variances from what is left at a point; at `first` all rows, as they are.
-
-        What is left beyond the noise of the sensors is the model's error, which no parameter
-        changes; where that would make zeros of all parameters, it is a weight alone.
-        """
-        if not first:
-            clean, added = self._rows([at])
-            self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)
-            self._mask = self._usual(at, clean[0])
-            self._filters = self._noise_filters
-        self._extra[:], self._weight[:] = 0.0, 1.0
-        if first:
-            return
-        value, _, _, noise = self._normal([at])
-        times = (value[0] ** 2).sum(axis=0) / np.maximum(self._mask.sum(axis=0), 1)
-        more = np.maximum(times - 1.0, 0.0)
-        self._extra = np.where(self._homogeneous, 0.0, more * noise[0])
-        self._weight = np.where(self._homogeneous, np.sqrt(1.0 + more), 1.0)
-
-    def _usual(self, at: Array, clean: Array) -> Mask:
-        """The rows without those that are far from what is usual: there it was another machine.
-
-        Unless half of what is known of some parameter is in them: then the model is wrong.
-        """
-        white = np.abs(np.where(self._all, filtered(clean, self._noise_filters), np.nan))
-        usual = [np.nanmedian(w) / 0.6745 if np.isfinite(w).any() else 0.0 for w in white.T]
-        far = np.zeros_like(self._all)
-        for lag in range(LAGS + 1):  # and what the filters remember of them
-            far[lag:] |= white[: len(white) - lag] > _FAR * np.array(usual)
-        self._mask = self._all
-        energy = self._slopes(at).by[: len(self.names)] ** 2
-        whole, part = energy.sum(axis=(1, 2)), (energy * far).sum(axis=(1, 2))
-        return self._all if (part > _MOST * whole).any() else self._all & ~far
-
-    def told_by(self, at: Array, residuals: Sequence[bool]) -> Array:
-        """The share of what is known of each parameter that some of the residuals tell."""
-        energy = (self._slopes(at).by ** 2).sum(axis=1)
-        known = np.maximum(energy.sum(axis=1), 1e-300)
-        return np.asarray(energy[:, list(residuals)].sum(axis=1) / known)
-
-    def _follows(self, at: Array) -> list[float | None]:
-        """For each residual, the share of what is left that follows the inputs."""
-        value, inputs = self._normal([at])[0][0], self._runs.inputs()
-        return [
-            follows(one, inputs, self._filters[:, r], self._mask[:, r])
-            for r, one in enumerate(value.T)
-        ]
-
-    def disturbed(self, at: Array, residuals: Sequence[bool]) -> Array:
-        """By how much the disturbance in some residuals may have moved each thing that is fitted.
-
-        A disturbance is in the sensors too, and what is multiplied with them leans on it. The
-        inputs know nothing of it: with them as instruments (Wright 1928, Hausman 1978) the fit
-        would be so far away.
-        """
-        s, inputs = self._slopes(at), self._runs.inputs()
-        by, value = s.by.copy(), s.value
-        for r in np.flatnonzero(residuals).tolist():
-            mask = self._mask[:, r]
-            basis = instruments(inputs, self._filters[:, r], mask)
-            if basis is not None:
-                whole = np.column_stack([basis, np.full(len(basis), len(basis) ** -0.5)])
-                by[:, ~mask, r] = 0.0
-                by[:, mask, r] = (by[:, mask, r] @ whole) @ whole.T
-        curved = np.einsum("atr,btr->ab", by, by) + self._pins.T @ self._pins
-        away = _inverse(curved, self._spread) @ np.einsum("atr,tr->a", by, value)
-        return np.asarray(away[: len(self.names)])
-
-    def bound(self, at: Array) -> Mask:
-        """Which parameters are where their sign would change."""
-        return (at <= self._low * (1 - 1e-3)) | (at >= self._high * (1 - 1e-3))
-
-    def covariance(self, at: Array) -> Array:
-        """Of the parameters, relative, also of those at a bound: others make up for them.
-
-        A sandwich: what the curvature says, and how much the slope of the sum of squares scatters
-        with what is left as it is, correlated or not (Newey and West 1987). The noise in the
-        slopes themselves tells nothing of the parameters and is taken off the curvature.
-        """
-        s = self._slopes(at)
-        _, _, whole, noise = self._normal([at])
-        rows = self._mask.sum(axis=0)
-        error = rows * (1.0 - noise[0] / np.maximum(whole[0], 1e-300)) / 4.0
-        curved = np.einsum("atr,btr->ab", s.by, s.by)
-        curved -= np.einsum("atr,btr->ab", s.added_by, s.added_by)
-        curved -= np.einsum("ar,br,r->ab", s.log_by, s.log_by, error)
-        own = np.einsum("tr,atr->ta", s.value, s.by)
-        mine = np.einsum("tr,atr->ta", s.added, s.added_by)
-        scatter = newey_west(own) + newey_west(mine)
-        prior = np.diag(self._spread**-2.0)
-        inverse = _inverse(curved, self._spread)
-        scatter *= few_rows(len(own)) ** 2 * len(own) / max(len(own) - len(at), 1)
-        return np.asarray(inverse @ (scatter + prior) @ inverse)
-
-    def apart(self, at: Array) -> Array:
-        """How far parameters may stand from here in a further log, in 95 of 100, relative.
-
-        Of each log how far each parameter would have to move, by itself, to explain what is left
-        of it: one step of Gauss and Newton. A further one stands so far from their mean, beside how
-        they scatter, as a t with one less than their number does (of a prediction interval).
-        Infinite where fewer than two logs tell. All rows count: those that are far from what is
-        usual may be a log that differs.
-        """
-        usual, self._mask = self._mask, self._all
-        s, count = self._slopes(at), len(self.names)
-        self._mask = usual
-        logs: dict[str, Mask] = {}
-        for name, _, rows in self._runs.times():
-            logs.setdefault(name, np.zeros(len(s.value), dtype=np.bool_))[rows] = True
-        by, added = s.by[:count], s.added_by[:count]
-        score = np.array([np.einsum("atr,tr->a", by[:, k], s.value[k]) for k in logs.values()])
-        energy = np.array([
-            np.sum(by[:, k] ** 2 - added[:, k] ** 2, axis=(1, 2)) for k in logs.values()
-        ])  # fmt: skip
-        told = energy > _BLIND * energy.max(axis=0)
-        weight = np.where(told, energy, 0.0)
-        step = np.divide(score, energy, out=np.zeros_like(score), where=told)
-        many, whole = told.sum(axis=0), np.maximum(weight.sum(axis=0), 1e-300)
-        free = np.maximum(many - 1, 1)
-        mean = (weight * step).sum(axis=0) / whole
-        scatter = (weight * (step - mean) ** 2).sum(axis=0) / whole * many / free
-        further = stdtrit(free, 0.975) * np.sqrt(scatter * (1.0 + 1.0 / np.maximum(many, 1)))
-        return np.asarray(np.where(many > 1, np.abs(mean) + further, math.inf))
-
-    def suspects(self, at: Array, units: Mapping[str, str]) -> tuple[Suspect, ...]:
-        """The offsets that would explain what is left, each by itself, the most likely one first.
-
-        A test of scores: how much the sum of squares falls with an offset if all that is fitted
-        follows, beside how much this scatters with what is left as it is, correlated or not.
-        """
-        wanted = [k for k in range(len(self._sizes)) if k not in self._offset_at]
-        if not wanted:
-            return ()
-        s = self._slopes(at)
-        steps = _STEP * np.diag(self._sizes)[wanted]
-        moved = self._normal([at] * (2 * len(wanted)), np.vstack([steps, -steps]))[0]
-        apart = (moved[: len(wanted)] - moved[len(wanted) :]) / (2 * _STEP)
-        by = s.by.reshape(len(at), -1)
-        inverse = _inverse(by @ by.T + self._pins.T @ self._pins, self._spread)
-        found = []
-        for k, slope in zip(wanted, apart, strict=True):
-            follow = inverse @ (by @ slope.ravel())
-            alone = slope - np.tensordot(follow, s.by, 1)
-            energy = float(np.sum(alone**2))
-            if energy <= _BLIND * float(np.sum(slope**2)):
-                continue
-            score = float(np.sum(alone * s.value))
-            scatter = float(newey_west((alone * s.value).sum(axis=1)[:, None])[0, 0])
-            share = score**2 / energy / max(float(np.sum(s.value**2)), 1e-300)
-            if score**2 > chdtri(1, _RARE / len(wanted)) * scatter and share > _MATTERS:
-                name, size = self._runs.names([self._runs.biased[k]])[0], float(self._sizes[k])
-                value, error = -score / energy * size, math.sqrt(scatter) / energy * size
-                found.append(Suspect(name, value, error, units.get(name, ""), share))
-        return tuple(sorted(found, key=lambda one: -one.share))
-
-    def left(self, at: Array) -> tuple[Left, ...]:
-        """What is left of every residual at a point, beside what there was."""
-        clean, added = self._rows([np.zeros(len(at)), at])
-        before, after, noise = rms(clean[0]), rms(clean[1]), rms(added[1])
-        term = np.max([after * 0.0, *map(rms, self._terms(at)[1])], axis=0)
-        white = filtered(clean[1], self._noise_filters)
-        share = self._follows(at)
-        found = []
-        for k, name in enumerate(self._runs.engine.residuals):
-            own = white[:, k]
-            good = np.isfinite(own[1:]) & np.isfinite(own[:-1])
-            square = float(np.sum(own[1:][good] ** 2))
-            memory = float(np.sum((own[1:] * own[:-1])[good])) / square if square else 0.0
-            spans = self._spans(own)
-            found.append(
-                Left(
-                    name, int(np.isfinite(clean[1, :, k]).sum()), float(before[k]),
-                    float(after[k]), float(noise[k]), memory, share[k], spans, float(term[k]),
-                    float(self._runs.lost[k]),
-                )
-            )
-        return tuple(found)
-
-    def _terms(self, at: Array) -> tuple[Array, Array]:
-        """The residuals, (rows, residuals), and of each parameter the term with it in them."""
-        count = self._shared
-        around = [at + s * _STEP * np.eye(len(at))[k] for k in range(count) for s in (1, -1)]
-        clean = self._rows([at, *around])[0]
-        share = (self.values(at) / self.scale)[:count, None, None]
-        return clean[0], share * (clean[1::2] - clean[2::2]) / (2 * _STEP)
-
-    def terms(self, at: Array) -> tuple[Terms, ...]:
-        """Each residual as the term with the parameter that makes most of it, and all others."""
-        runs, count = self._runs, self._shared
-        value, parts = self._terms(at)
-        found, pieces = [], runs.times()
-        for log in dict.fromkeys(name for name, _, _ in pieces):
-            time = np.concatenate([t for name, t, _ in pieces if name == log])
-            rows = np.concatenate([np.arange(s.start, s.stop) for n, _, s in pieces if n == log])
-            for k, name in enumerate(runs.engine.residuals):
-                if not count or not np.isfinite(value[rows, k]).any():
-                    continue
-                one = int(np.argmax(rms(parts[:, :, k].T)))
-                term = parts[one, rows, k]
-                others = term - value[rows, k]
-                found.append(Terms(name, self._free[one], log, time, term, others))
-        return tuple(found)
-
-    def _spans(self, white: Array) -> tuple[Span, ...]:
-        """Where more than twice as much is left as usual, by spans of the logs."""
-        runs, found = self._runs, []
-        apart = runs.every * runs.engine.sample_time
-        most = max(map(len, runs.pieces)) // runs.every
-        size = max(LAGS, math.ceil(most / _SPANS))
-        for name, time, rows in runs.times():
-            own = white[rows]
-            for start in range(0, len(own), size):
-                part = own[start : start + size]
-                good = part[np.isfinite(part)]
-                if len(good) >= LAGS:
-                    begin = float(time[start]) - apart
-                    mean = math.sqrt(float(np.mean(good**2)))
-                    found.append(Span(name, begin, begin + len(part) * apart, mean))
-        usual = float(np.median([s.times for s in found])) if found else 0.0
-        if not usual:
-            return ()
-        return tuple(s._replace(times=s.times / usual) for s in found if s.times > 2.0 * usual)

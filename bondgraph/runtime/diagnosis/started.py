@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.errors_in_variables import Wanted
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
-from bondgraph.runtime.diagnosis.parameter_fit import Wanted, fit
+from bondgraph.runtime.diagnosis.parameter_fit import fit
 from bondgraph.runtime.diagnosis.remembered import counted, unknown_starts
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.clock import Piece

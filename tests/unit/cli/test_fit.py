@@ -14,7 +14,7 @@ import pytest
 import bondgraph as package
 from bondgraph import Log
 from bondgraph.cli.fit import _fits
-from bondgraph.runtime.diagnosis.parameter_fit import Left, Span
+from bondgraph.runtime.diagnosis.fitted import Left, Span
 from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.log_file import write_log
 from tests.unit.cli.conftest import Command

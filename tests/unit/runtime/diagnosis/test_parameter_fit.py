@@ -11,7 +11,7 @@ from scipy.stats import t
 
 import bondgraph
 from bondgraph import Course, Log, Scenario
-from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting
+from bondgraph.runtime.diagnosis.fitted import Fitted, Fitting
 from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.diagnosis.whitening import newey_west, whitening
 
@@ -570,3 +570,24 @@ def test_what_nothing_tells_is_asked_for_where_it_is_as_declared() -> None:
     assert abs(found.values["set"] - 9.8) < 0.08
     assert abs(found.values["kr"] - 2.2) < 0.3
     assert not any(c.parameters == ("set",) for c in found.combinations)
+
+
+@pytest.mark.parametrize("opens", (0.3, 2.5, 3.5))
+def test_samples_at_which_the_law_has_no_value_as_declared_count_once_it_has_one(
+    opens: float,
+) -> None:
+    """A valve that is declared to open at 3.5 Pa has no flow at less, but it opens at 1 Pa."""
+    text = f"""bg 1
+    model M {{
+        param opens = {opens} Pa; param k = 3 m^3/s
+        Se:P -> 1:line; line -> R:valve {{ f = k*sqrt(e - opens) }}; line -> Df:flow
+    }}"""
+    draw, time = np.random.default_rng(1), np.arange(4000) / 10
+    pressure = 3.5 + 1.2 * np.sin(0.11 * time) + 0.3 * np.sin(0.37 * time)
+    flow = np.sqrt(pressure - 1.0) + 0.01 * draw.standard_normal(4000)
+    log = bondgraph.Log(time, {"P": pressure, "flow": flow}, {}, {})
+    found = bondgraph.compile(text=text, rate=10.0, bandwidth=2.0).fit({"valve": log})
+    for one in found.parameters:
+        assert one.error is not None
+        assert abs(one.value - 1.0) < 4.0 * one.error < 0.01
+    assert found.left[0].times == pytest.approx(1.0, abs=0.1)
