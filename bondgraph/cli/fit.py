@@ -310,7 +310,11 @@ def _fits(left: Left, offset: bool) -> list[str]:
     if left.nothing:
         share = f"{100 * left.after / left.term:.1g} % of its largest term"
         return [f"{left.residual}: what is left is {share}, as of samples without noise"]
-    text = f"{left.residual}: {100 * left.explained:.1f} % of it at the nominal values is explained"
+    if left.explained < 0.0:  # other residuals tell its parameters better, and move them
+        text = f"{left.after / left.before:.3g} times what it is at the nominal values"
+    else:
+        text = f"{100 * left.explained:.1f} % of it at the nominal values is explained"
+    text = f"{left.residual}: {text}"
     text += f"; what is left is {left.times:.2g} times the noise of the sensors"
     if left.wrong and left.follows is not None:
         text += f", and {100 * left.follows:.0f} % of it follows the inputs: the model is another"

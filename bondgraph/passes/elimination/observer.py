@@ -50,6 +50,10 @@ def observer(
     inserted = pool.substitute([residual.closing.zero], closed)[0]
     same, turned = agree([(inserted, residual.expr), (pool.neg(inserted), residual.expr)])
     if not (same or turned):
+        if residual.differentiated > 0:
+            return "it was differentiated, as an initial value is not declared"
+        if residual.differentiated < 0:
+            return "it holds what rates add up to from declared initial values"
         return "it is a combination of relations"
     value = pool.scale(1 if same else -1, pool.symbol(_OFF, Kind.INPUT))
     nominal = Nominal(system.graph)

@@ -13,6 +13,7 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signature_matrix import DoubleFaults, ModeSignatures, SignatureMatrix, stuck
+from bondgraph.runtime.diagnosis.dissipation import dissipating_signs
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.remembered import Memory, memories
@@ -46,8 +47,9 @@ class DiagnosisModel(NamedTuple):
     residual; `switches` that may be stuck, by the name of the fault. `accepted` are faults that the
     machine is known to have, with the kind of their hypothesis and the deviation of what is known:
     what is nominal is so with them. `dynamic` are the parameters that are multiplied with what
-    changes, as those of storages are: `SinceOnset` tries these in two ways. `doubles` tells which
-    two faults at once could look like a third one, when it is asked.
+    changes, as those of storages are: `SinceOnset` tries these in two ways. `signs` are those that
+    parameters may have which are nominally zero, where an R would deliver power with the other.
+    `doubles` tells which two faults at once could look like a third one, when it is asked.
     """
 
     faults: Mapping[str, float | None]
@@ -61,6 +63,7 @@ class DiagnosisModel(NamedTuple):
     doubles: Callable[[], DoubleFaults]
     accepted: Mapping[tuple[str, str], float] = MappingProxyType({})
     dynamic: frozenset[str] = frozenset()
+    signs: Mapping[str, int] = MappingProxyType({})
 
     @property
     def nominal(self) -> dict[str, float]:
@@ -100,6 +103,7 @@ def diagnosis_model(
         known,
         doubles,
         dynamic=dynamic(graph, residuals),
+        signs=dissipating_signs(graph),
     )
 
 

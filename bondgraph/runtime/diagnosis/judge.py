@@ -254,7 +254,8 @@ class Judge:
         """How well these faults and perhaps others explain the rows; see `candidates`."""
         assert self._compared is not None
         found = self._compared.explained(history, faults)
-        return candidates(found, self._model.faults, self._model.sees, fired)
+        model = self._model
+        return candidates(found, model.faults, model.sees, fired, model.signs)
 
     def _ask_for_two(self, history: History, fired: Mapping[str, float], one: bool) -> None:
         """See whether two at once explain more than one fault, that fits or not; ever less often.
@@ -274,8 +275,9 @@ class Judge:
             alone, pairs = self._compared.pairs(history, found)
         except np.linalg.LinAlgError:
             return
-        whole = candidates(found, model.faults, model.sees, fired)
+        whole = candidates(found, model.faults, model.sees, fired, model.signs)
         can = {e.fault for e in whole if e.evidence > -math.inf}
-        alone = [possible(e, model.faults.get(e.fault)) for e in alone if e.fault in can]
-        pairs = pairs_that_can(pairs, model.faults, model.sees, fired)
+        alone = [possible(e, model.faults.get(e.fault), model.signs.get(e.fault))
+                 for e in alone if e.fault in can]  # fmt: skip
+        pairs = pairs_that_can(pairs, model.faults, model.sees, fired, model.signs)
         self._two = one_or_two(alone, pairs, one, model.doubles)

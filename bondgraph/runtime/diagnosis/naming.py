@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from bondgraph.ir.signature_matrix import DoubleFaults
@@ -34,8 +35,14 @@ _AGAIN = 5  # rows between an update and the next, twice as many each time
 LONGEST = 320  # rows that anything said again has to wait
 
 
-def possible(explained: Explained, nominal: float | None) -> Explained:
-    """No fault turns a parameter into its opposite: what would need that is no explanation."""
+def possible(explained: Explained, nominal: float | None, sign: int | None = None) -> Explained:
+    """No fault turns a parameter into its opposite: what would need that is no explanation.
+
+    Nor does one that is zero take the sign with which an R would deliver power, where only one
+    `sign` dissipates. `change` is how much less than now the parameter was.
+    """
+    if nominal == 0.0 and sign and sign * explained.change > 3.0 * explained.deviation:
+        return explained._replace(evidence=-math.inf)
     if nominal:
         left = 1.0 - explained.change / nominal  # of the value, as the machine has it now
         if left < -0.1 - 3.0 * explained.deviation / abs(nominal):
@@ -66,15 +73,16 @@ def candidates(
     faults: Mapping[str, float | None],
     sees: Mapping[str, Sequence[str]],
     fired: Mapping[str, float],
+    signs: Mapping[str, int] = MappingProxyType({}),
 ) -> list[Explained]:
     """With no evidence for what cannot be: see `possible`; nor can what a fired residual sees not.
 
     Evidence alone is of magnitudes, and where no fault fits well the one that spoils least may
     leave such a residual unexplained. Of a fault that fits only what is loud has to be seen, as in
     `suspects`. Where no fault is seen by all that have fired, none is ruled out by that. `faults`
-    are nominal values, `sees` the faults of each residual.
+    are nominal values, `sees` the faults of each residual, `signs` those of what is nominally zero.
     """
-    left = [possible(e, faults.get(e.fault)) for e in found]
+    left = [possible(e, faults.get(e.fault), signs.get(e.fault)) for e in found]
     loud = _loud(fired)
     whole = [
         all(e.fault in sees.get(name, ()) for name in (loud if fits(e) else fired)) for e in left
@@ -243,6 +251,7 @@ def pairs_that_can(
     faults: Mapping[str, float | None],
     sees: Mapping[str, Sequence[str]],
     fired: Iterable[str],
+    signs: Mapping[str, int] = MappingProxyType({}),
 ) -> list[ExplainedPair]:
     """Without the pairs that cannot be, as `candidates`: what has fired one of both has to move."""
     seen = [set(sees.get(name, ())) for name in fired]
@@ -251,7 +260,8 @@ def pairs_that_can(
         own = {h.fault for h in pair.hypotheses}
         each = [Explained(h.fault, 0.0, h, change, 0.0)
                 for h, change in zip(pair.hypotheses, pair.changes, strict=True)]  # fmt: skip
-        can = all(possible(e, faults.get(e.fault)).evidence == 0.0 for e in each)
+        kept = [possible(e, faults.get(e.fault), signs.get(e.fault)) for e in each]
+        can = all(e.evidence == 0.0 for e in kept)
         if can and not any(own.isdisjoint(s) for s in seen):
             left.append(pair)
     return left

@@ -88,8 +88,9 @@ class SignalChecks:
     a machine that was switched off by it reads the same. Where one of
     them, or one of the `modes` by their columns, makes a step that is rare, a sensor may answer
     with a peak of a sample or two, as the current into a capacitor that is switched on: no spike
-    is looked for there. Of `encoders`, by their columns, is told which stands still while others
-    go on.
+    is looked for there, until enough such answers are known: then one twice as far out as any of
+    them is a spike, behind a step no larger than those that were answered. Of `encoders`, by their
+    columns, is told which stands still while others go on.
     """
 
     def __init__(
@@ -104,11 +105,13 @@ class SignalChecks:
         self._drive = np.array([name in inputs for name in self._names], dtype=np.bool_)
         self._steer = [*np.array(self._at, dtype=int)[self._drive].tolist(), *modes]
         count = len(self._names)
-        self._seen: list[Array] = []  # healthy samples until the weights are known
+        self._seen: list[tuple[Array, Array]] = []  # healthy samples until weights are known
         self._weights = np.empty((0, 2))  # (signals, 2): of the nearest and the next ones
         self._samples = np.zeros(count)  # that were learned from
         self._rows = np.zeros(count)  # the same in rows
         self._far = np.zeros((2, count))  # largest spike when healthy, and off expected
+        self._answer = np.zeros((2, count))  # largest to a rare step of a command; samples of such
+        self._stepped = np.zeros(len(self._steer))  # largest step of each command that was answered
         self._rough = np.zeros((2, count))  # of a healthy row: roughness, and beside its motion
         self._calm = np.full(count, math.inf)  # roughness of the smoothest row, beside its motion
         self._range = np.array([np.full(count, math.inf), np.full(count, -math.inf)])
@@ -158,9 +161,9 @@ class SignalChecks:
         if not self._names or len(with_last) < 4 * _SIDE + 1:
             return {}, ()
         if not len(self._weights):
-            self._first(own, healthy)
+            self._first(own, steered[-len(own) :], healthy)
             return {}, ()
-        far, rough, moved, where = self._looked_at(with_last, _answers(steered))
+        far, rough, moved, where = self._looked_at(with_last, steered)
         found = {}
         top = np.fmax(self._range[1], own.max(axis=0))
         bottom = np.fmin(self._range[0], own.min(axis=0))
@@ -183,7 +186,7 @@ class SignalChecks:
         if self._driven < _AFTER:
             found = {n: one for n, one in found.items() if one.kind == "stuck"}
         if healthy and not found:
-            self._learn(with_last, len(own), far, rough, moved, ended, changes)
+            self._learn(with_last, steered, len(own), far, rough, moved, ended, changes)
         return found, driven
 
     def _rests(
@@ -299,15 +302,15 @@ class SignalChecks:
         self._tail = both[-_LEAST:]
         return self._run.copy(), ended, 1.0 - same.mean(axis=0)
 
-    def _first(self, own: Array, healthy: bool) -> None:
+    def _first(self, own: Array, steered: Array, healthy: bool) -> None:
         """Gather samples until there are enough for the weights; then look at all of them."""
         if not healthy:
             self._seen = []
             return
-        self._seen.append(own)
-        if sum(map(len, self._seen)) < _ENOUGH:
+        self._seen.append((own, steered))
+        if sum(len(row) for row, _ in self._seen) < _ENOUGH:
             return
-        near, next_, middle = _around(np.concatenate(self._seen))
+        near, next_, middle = _around(np.concatenate([row for row, _ in self._seen]))
         weights = []
         for k in range(own.shape[1]):
             table = np.column_stack([near[:, k], next_[:, k], middle[:, k]])
@@ -321,22 +324,21 @@ class SignalChecks:
             weights.append((nearest, 0.5 - nearest))
         self._weights = np.array(weights)
         rows, self._seen = self._seen, []
-        last = np.empty((0, own.shape[1]))
+        last, before = np.empty((0, own.shape[1])), steered[:0]
         self._run[:] = 0.0
-        for row in rows:
-            with_last = np.concatenate([last, row])
+        for row, commands in rows:
+            with_last, steered = np.concatenate([last, row]), np.concatenate([before, commands])
             self._last = last
             _, ended, changes = self._runs(row)
-            last = with_last[-4 * _SIDE :]
+            last, before = with_last[-4 * _SIDE :], steered[-4 * _SIDE :]
             if len(with_last) >= 4 * _SIDE + 1:
-                calm = np.zeros(len(with_last), dtype=np.bool_)
-                far, rough, moved, _ = self._looked_at(with_last, calm)
-                self._learn(with_last, len(row), far, rough, moved, ended, changes)
+                far, rough, moved, _ = self._looked_at(with_last, steered)
+                self._learn(with_last, steered, len(row), far, rough, moved, ended, changes)
         self._last = last
 
     def _learn(
-        self, samples: Array, count: int, far: Array, rough: Array, moved: Array, ended: Array,
-        changes: Array,
+        self, samples: Array, steered: Array, count: int, far: Array, rough: Array, moved: Array,
+        ended: Array, changes: Array,
     ) -> None:  # fmt: skip
         """A healthy row more, of the signals that have a value all through it.
 
@@ -359,6 +361,7 @@ class SignalChecks:
             (self._range[1], seen.max(axis=0), fresh),
             (self._far[0], far[0], fresh & ~spikes),
             (self._far[1], far[1], fresh & ~spikes),
+            (self._answer[0], far[3], np.isfinite(far[0])),  # few: there are never enough of them
             (self._rough[0], rough, fresh),
             (self._rough[1], beside, fresh),
             (self._still, ended, fresh),
@@ -371,6 +374,8 @@ class SignalChecks:
         ):
             table[which] = np.minimum(table, more)[which]
         self._samples += np.where(fresh, count, 0)
+        self._answer[1] += np.where(np.isfinite(far[0]), far[4], 0.0)
+        self._stepped = np.fmax(self._stepped, _sizes(steered).max(axis=0))
         self._rows += fresh
 
     def _share(self, count: int, changes: Array, usual: Mask) -> Array:
@@ -386,24 +391,32 @@ class SignalChecks:
         self._differ[:, enough] = 0.0
         return share
 
-    def _looked_at(self, samples: Array, answers: Mask) -> tuple[Array, Array, Array, Array]:
+    def _looked_at(self, samples: Array, steered: Array) -> tuple[Array, Array, Array, Array]:
         """Of samples (n, signals): the largest spike, by how much it is off what its neighbours let
-        expect, and the next spike that is not beside it; the roughness, what the signals move, and
-        where the spike is. What a sensor `answers` to a command (n,) is no spike."""
+        expect, and the next spike that is not beside it, the largest answer to what is `steered`
+        (n, commands), and how many samples are such; the roughness, what the signals move, and
+        where the spike is."""
         near, next_, middle = _around(samples)
         error = middle - near * self._weights[:, 0] - next_ * self._weights[:, 1]
         off, inside = np.abs(error), slice(_SIDE, len(error) - _SIDE)
         before, after = samples[1:-3], samples[3:-1]
         median = np.clip(middle, np.minimum(before, after), np.maximum(before, after))
         either = np.minimum(off, np.abs(middle - median))[inside]
-        peaks = answers[2 * _SIDE : len(samples) - 2 * _SIDE, None] & ~self._drive
-        spike = np.where(self._steps(error) | peaks, 0.0, either)
+        single = np.where(self._steps(error), 0.0, either)
+        own = slice(2 * _SIDE, len(samples) - 2 * _SIDE)
+        answers = _answers(steered)[own, None] & ~self._drive
+        larger = _answers(steered, self._stepped)[own, None]  # how far that goes nobody knows
+        known = answers & ~larger & (self._answer[1] >= _ENOUGH)
+        usual = known & (single <= _OUT * self._answer[0])
+        spike = np.where(usual | (answers & ~known), 0.0, single)
+        answer = np.where(answers, single, 0.0).max(axis=0)
         apart = np.abs(np.arange(len(spike))[:, None] - spike.argmax(axis=0)) > _SIDE
-        second = np.where(apart, either, 0.0).max(axis=0)
+        second = np.where(apart & ~usual, either, 0.0).max(axis=0)
         where = np.where(apart, 0.0, off[inside]).argmax(axis=0)  # its neighbours are out as well
         moved = np.median(np.abs(np.diff(samples, axis=0)), axis=0)
         size = off[inside][where, np.arange(len(where))]
-        far = np.stack([spike.max(axis=0), size, second])
+        count = np.broadcast_to(answers.sum(axis=0), second.shape)
+        far = np.stack([spike.max(axis=0), size, second, answer, count])
         return far, np.median(off, axis=0), moved, where + 2 * _SIDE
 
     def _steps(self, error: Array) -> Mask:
@@ -447,7 +460,7 @@ class SignalChecks:
 
     def _learned(self) -> list[Array]:
         return [self._weights, self._samples, self._rows, self._far, self._rough, self._calm,
-                self._range, self._still, self._least]  # fmt: skip
+                self._range, self._still, self._least, self._answer, self._stepped]  # fmt: skip
 
 
 def _around(samples: Array) -> tuple[Array, Array, Array]:
@@ -455,11 +468,17 @@ def _around(samples: Array) -> tuple[Array, Array, Array]:
     return samples[1:-3] + samples[3:-1], samples[:-4] + samples[4:], samples[2:-2]
 
 
-def _answers(steered: Array) -> Mask:
+def _sizes(steered: Array) -> Array:
+    """Of the steps to each sample of what is `steered`, (n, commands); no number makes none."""
+    sizes = np.abs(np.diff(steered, axis=0, prepend=steered[:1]))
+    return np.where(np.isfinite(sizes), sizes, 0.0)
+
+
+def _answers(steered: Array, least: Array | float = 0.0) -> Mask:
     """At which samples sensors may answer to a rare step of what is `steered`, (n, commands).
 
     A step is rare that few others come near to: those of a command that is held over some samples,
-    of a converter or of a noisy reading do.
+    of a converter or of a noisy reading do. Steps of a command up to the `least` are none.
 
     >>> on = np.zeros((40, 1))
     >>> on[25:] = 1.0
@@ -468,11 +487,11 @@ def _answers(steered: Array) -> Mask:
     >>> np.flatnonzero(_answers(np.arange(40)[:, None] // 4 % 2 * 1.0)).tolist()
     []
     """
-    sizes = np.abs(np.diff(steered, axis=0, prepend=steered[:1]))
+    sizes = _sizes(steered)
     rare = np.zeros(len(sizes), dtype=np.bool_)
-    for column in np.where(np.isfinite(sizes), sizes, 0.0).T:
+    for column, most in zip(sizes.T, np.broadcast_to(least, sizes.shape[1]), strict=True):
         near = len(column) - np.searchsorted(np.sort(column), column / _ALONE)
-        rare |= (column > 0.0) & (near <= _RARE * len(column))
+        rare |= (column > most) & (near <= _RARE * len(column))
     found = np.concatenate([np.zeros(_SIDE, dtype=np.bool_), rare, np.zeros(1, dtype=np.bool_)])
     around = np.lib.stride_tricks.sliding_window_view(found, _SIDE + 2)
     return np.asarray(around.any(axis=1))

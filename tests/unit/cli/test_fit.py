@@ -439,3 +439,9 @@ def test_times_of_a_log_with_dates_are_dates() -> None:
     span = Span("a.csv", 1583749473.0, 1583749533.0, 3.0)
     (_, said) = _fits(Left("r1", 40, 1.0, 1.0, 1.0, 0.0, None, (span,), 10.0), offset=False)
     assert "from 2020-03-09T10:24:33.000Z to 2020-03-09T10:25:33.000Z it is" in said
+
+
+def test_a_residual_that_the_fit_makes_larger_has_no_negative_share_explained() -> None:
+    """1.5 times as large: the share 1 - 1.5^2 of its mean square is below zero."""
+    (said,) = _fits(Left("r1", 40, 2.0, 3.0, 1.0, 0.0, None, (), 10.0), offset=False)
+    assert said.startswith("r1: 1.5 times what it is at the nominal values; what is left is 3 ")

@@ -116,6 +116,9 @@ def test_hidden_tank() -> None:
                                  "j -> R:r { e = if(on, f, 2*f) }"),
         ("no closed form", "1:j { <- Se:U; -> I:m = 1; -> Df:v }\nj -> 0:n\n"
                            "n { -> R:s { f = e + e^3 }; -> R:t { f = sinh(e) } }"),
+        # force and position of a spring: 0 = C*D(F) - D(x), and so 0 = C*F - x from declared starts
+        ("declared initial values", "1:v { <- Se:U; -> I:m = 1; -> C:s(q0 = 0) = 2 }\n"
+                                    "sensor F = s.e\nsensor x = int(v.f)"),
     ],
 )  # fmt: skip
 def test_why_there_is_none(why: str, text: str) -> None:

@@ -56,6 +56,23 @@ def test_no_parameter_becomes_its_opposite() -> None:
     assert _left(["r1"], _explained("R", 90.0, 0.9), _explained("k", 10.0)) == ["R", "k"]
 
 
+def test_a_leak_that_is_not_there_yet_does_not_feed() -> None:
+    """The machine has -change of what is nominally zero; 0.01 is the deviation of that."""
+    known, sees = {"leak": 0.0, "k": 1.0}, {"r1": ("leak", "k")}
+    fired, signs = {"r1": 2.0}, {"leak": 1}
+
+    def left(change: float) -> list[str]:
+        found = candidates([_explained("leak", 90.0, change), _explained("k", 10.0)], known, sees,
+                           fired, signs)  # fmt: skip
+        return [e.fault for e in found if e.evidence > -math.inf]
+
+    assert left(-0.5) == ["leak", "k"]
+    assert left(0.029) == ["leak", "k"], "a leak of nothing, as far as that is known"
+    assert left(0.031) == ["k"]
+    pair, feeding = _pair("leak", "k", 0.6, -0.5, -0.2), _pair("leak", "k", 0.6, 0.5, -0.2)
+    assert pairs_that_can([pair, feeding], known, sees, ["r1"], signs) == [pair]
+
+
 def test_what_is_left_over_has_to_be_noise() -> None:
     # forty values of which neighbours share half: twenty times 0.5, or twice that at most
     # where noise has twice the variance; chi-square of 20 exceeds 45.3 once in a thousand (tables)

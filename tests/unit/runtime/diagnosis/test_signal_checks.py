@@ -401,6 +401,36 @@ def test_a_spike_beside_a_command_that_is_held_over_some_samples_is_one() -> Non
     assert [one.signal for one in _switched(np.column_stack([held, current]), "command")] == ["i"]
 
 
+@pytest.mark.parametrize("late", [-1, 0, 1, 2])
+@pytest.mark.parametrize("kind", ["command", "mode"])
+def test_a_spike_at_a_step_of_a_slow_controller_is_one_once_its_answers_are_known(
+    kind: str, late: int
+) -> None:
+    """A controller that is twenty times slower than the log: one step in each row, rare there."""
+    command, current = _slow_controller(4000)
+    current[3500 + late] += 1.0  # five times as large as any of the 170 answers before
+    (one,) = _switched(np.column_stack([command, current]), kind)
+    assert one[:2] == ("i", "spike")
+    assert one.since == pytest.approx((3500 + late) * _STEP, abs=1.5 * _STEP)
+
+
+@pytest.mark.parametrize(("step", "told"), [(1.0, True), (4.0, False)])
+def test_a_step_larger_than_ever_is_answered_by_as_much_more(step: float, told: bool) -> None:
+    command, current = _slow_controller(4000)
+    command[3500:] += step - 1.0 if command[3500] > command[3499] else 1.0 - step
+    current[3500] = 0.2 * step if not told else 0.8  # as of a step four times as large
+    assert bool(_switched(np.column_stack([command, current]), "command")) == told
+
+
+def _slow_controller(count: int) -> tuple[Array, Array]:
+    """A command that steps to and fro by one at each 20th sample, and a current that answers each
+    step with a peak of a fifth of it, gone with the next sample."""
+    command = np.arange(count) // 20 % 2 * 1.0
+    current = 0.01 * np.random.default_rng(4).normal(size=count)
+    current[20::20] += 0.2
+    return command, current
+
+
 def _switched(samples: Array, kind: str) -> list[Unusual]:
     """What is unusual of a current, `samples` of a command or a mode and of it."""
     if kind == "mode":
