@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
@@ -228,6 +229,7 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
     lines = [_message(compilation, found), "", *console.columns(rows)]
     lines += _starts(found)
     lines += _tolerances(found, declared)
+    lines += _outside(found, declared)
     if any(p.bound for p in found.parameters):
         names = ", ".join(p.name for p in found.parameters if p.bound)
         lines += ["", f"With another sign {names} would fit better: see to the signs of the"
@@ -251,7 +253,10 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
             when = f"{off:.3g} s" if off >= 1.0 else f"{1000 * off:.3g} ms"
             when += " early" if delay.value > 0.0 else " late"
             more = " or more: no more is fitted, declare it in the model by `delay`"
-            lines.append(f"  {delay.signal} comes {when} in the log{more if delay.bound else ''}")
+            more = more if delay.bound else ""
+            if any(left.wrong for left in found.left):
+                more += "; a lag that the model leaves out looks the same"
+            lines.append(f"  {delay.signal} comes {when} in the log{more}")
     return [*lines, "", f"Written to {joined(files, 'and')}"]
 
 
@@ -287,6 +292,30 @@ def _tolerances(found: Fitted, declared: Mapping[str, float]) -> list[str]:
         return ["", "Tolerances stay as declared: one log does not tell how far parameters"
                 " stand apart from one to the next, three do"]  # fmt: skip
     return []
+
+
+def _outside(found: Fitted, declared: Mapping[str, float]) -> list[str]:
+    """The parameters that are farther from their nominal values than the model says, in words."""
+    out = [
+        p for p in found.parameters
+        if abs(p.value - p.nominal) - (p.interval or 0.0)
+        > declared.get(p.name, math.inf) * abs(p.nominal)
+    ]  # fmt: skip
+    if not out:
+        return []
+    each = [
+        f"{p.name} {100 * (p.value - p.nominal) / abs(p.nominal):+.3g} %"
+        f" (+- {100 * declared[p.name]:.3g} %)"
+        for p in out
+    ]
+    lines = ["", f"Outside of declared tolerances: {listed(each, 'and')}"]
+    loose = [p.name for p in out if p.error is None]
+    kept = [p.name for p in (*found.parameters, *found.offsets) if p.name not in loose]
+    if loose and kept:
+        only = "only makes" if len(loose) == 1 else "only make"
+        lines.append(f"  {listed(loose, 'and')} {only} the residuals small: leave out of the fit"
+                     f" what is known better (--free {','.join(kept)})")  # fmt: skip
+    return lines
 
 
 def _suspected(found: Fitted) -> list[str]:

@@ -125,13 +125,14 @@ def from_record(record: dict[str, Any]) -> tuple[int, Verdict]:
 
 
 def to_text(verdict: Verdict) -> str:
-    """The verdict as one line for people.
+    """The verdict as one line for people; a start is before any sample, and has no time.
 
     >>> print(to_text(Verdict("warm-up", 0.46, message="r1 and r2 are watched from now on")))
            0.460 s  warm-up  r1 and r2 are watched from now on
     """
     message = verdict.message or described(verdict)
-    return f"{moment(verdict.time):>14}  {verdict.event:<7}  {message}"
+    when = "" if verdict.event == "start" else moment(verdict.time)
+    return f"{when:>14}  {verdict.event:<7}  {message}"
 
 
 def _account(record: Any) -> dict[str, Any] | None:

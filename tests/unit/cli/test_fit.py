@@ -91,6 +91,30 @@ def test_what_a_wrong_law_tells_has_no_interval_either(bondgraph: Command, folde
     assert not tomllib.loads(text)["standard_errors"]
 
 
+@pytest.mark.parametrize(
+    ("tolerance", "squared", "out"), ((5, 0.0, True), (5, 0.3, True), (60, 0.0, False))
+)
+def test_what_is_outside_of_its_tolerance_is_told(
+    bondgraph: Command, folder: Path, tolerance: int, squared: float, out: bool
+) -> None:
+    """R is 3 Ohm where 2 are declared; with a law that is another nobody knows that."""
+    (folder / "c.bg").write_text(MODEL.replace("5%", f"{tolerance}%").replace("1 mH", "1 mH +- 3%"))
+    t = np.arange(6000) / 1000.0
+    i = np.sin(8.0 * t) + 0.5 * np.sin(21.0 * t)
+    rate = 8.0 * np.cos(8.0 * t) + 10.5 * np.cos(21.0 * t)
+    noise = np.random.default_rng(7).normal(0.0, 0.002, len(t))
+    drive = 3.0 * i + squared * i**3 + 1e-3 * rate
+    write_log(Log(t, {"U": drive, "y": i + noise}, {}, {}), "log.csv")
+    done = bondgraph("fit", "c.bg", "log.csv", "-o", "p.toml")
+    assert done.status == 0, done.err
+    told = re.search(r"^Outside of declared tolerances: R \+(\S+) % \(\+- 5 %\)", done.out, re.M)
+    assert (told is not None) == out
+    if told and not squared:
+        assert float(told[1]) == pytest.approx(50.0, abs=1.0)
+    loose = "only makes the residuals small: leave out of the fit what is known better (--free"
+    assert (loose in done.out) == bool(squared)
+
+
 def test_a_signal_that_is_in_the_log_too_soon_comes_early(
     bondgraph: Command, folder: Path
 ) -> None:
