@@ -71,6 +71,8 @@ class Hypothesis(NamedTuple):
     number, so that only the measurement is changed.
     `turned` says that a change of the machine moves residuals like the opposite change of what the
     program is told: so it is with parameters and commands, not with readings.
+    A gain is told in percent, that of a temperature in its `unit` at its usual `level`: a share of
+    what is counted from absolute zero says nothing to anybody.
     """
 
     fault: str
@@ -79,6 +81,7 @@ class Hypothesis(NamedTuple):
     usual: float
     turned: bool
     held: Stuck | None = None
+    level: float = 1.0
 
 
 class _Lane:
@@ -391,7 +394,10 @@ def hypotheses(
             turned = signals[path].kind != "sensor"
             unit = unit if counts is None else COUNT
             found.append(Hypothesis(path, "offset", unit, usual or _USUAL, turned))
-            found.append(Hypothesis(path, "gain", "", _USUAL, turned))
+            if unit == "K":
+                found.append(Hypothesis(path, "gain", unit, _USUAL, turned, None, size))
+            else:
+                found.append(Hypothesis(path, "gain", "", _USUAL, turned))
             if switches and turned:
                 found.append(Hypothesis(path, "stuck", "", 1.0, True, Stuck(path, 0.0)))
             if counts is not None:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 
+import pytest
+
+import bondgraph
 from bondgraph.ir.signature_matrix import DoubleFaults
-from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, hypotheses
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
 from bondgraph.runtime.diagnosis.naming import (
     OneOrTwo,
+    candidate,
     candidates,
     fits,
     one_or_two,
@@ -155,3 +159,22 @@ def test_a_class_says_whether_it_may_be_two_others() -> None:
     assert perhaps.message.endswith("; or two others at once")
     more = update(5.0, 4.0, {"r1": 2.0}, (), [_explained("k", 90.0)], OneOrTwo(False), doubles)
     assert more.message.startswith("no single fault explains this since 4.000 s: several at once")
+
+
+def test_the_gain_of_a_thermometer_is_told_in_kelvin_and_of_a_current_in_percent() -> None:
+    """What reads 300 K where there are 297 K is wrong by 3 K to whoever reads degrees Celsius."""
+    text = """bg 1
+    model Oven { input P : W; param G = 2 W/K; param C = 50 J/K
+      Sf:P -> 0:wall; wall -> C:C; wall -> R:loss { f = G*e }; wall -> De:T }"""
+    engine = bondgraph.compile(text=text).engine(native=False)
+    known = {"T": None, "P": None}
+    all_of = hypotheses(engine, known, {"T": "K", "P": "W"}, {"T": 300.0, "P": 20.0})
+    gains = {h.fault: h for h in all_of if h.kind == "gain"}
+    told = {
+        fault: candidate(Explained(fault, 9.0, gains[fault], change, 0.001), 1.0)
+        for fault, change in (("T", 0.01), ("P", -0.1))
+    }
+    true, read = 297.0, 300.0
+    assert told["T"].unit == "K"
+    assert told["T"].size == pytest.approx((read - true) / true * 300.0)
+    assert (told["P"].size, told["P"].unit) == (pytest.approx(10.0), "%")
