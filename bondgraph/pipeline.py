@@ -298,25 +298,22 @@ class Compilation:
         from bondgraph.runtime.diagnosis.parameter_fit import fit, fittable
         from bondgraph.runtime.diagnosis.tuning import bandwidth_for, tuned_bandwidth
         from bondgraph.runtime.monitoring.whole_logs import stretches
-        from bondgraph.runtime.simulation.parameters import units
 
         engine, model = self.engine(), self.diagnosis_model
-        tolerances = model.tolerances
-        chosen = fittable(engine, model.faults, tolerances, free)
+        chosen = fittable(engine, model.faults, model.tolerances, free)
         pieces = stretches(engine, logs.items(), columns, operating)
-        own = units(self.graph)
-        told = engine, pieces, chosen, tolerances, own, noise or {}
+        told = engine, pieces, chosen, model, noise or {}
         bandwidth, rate = self.options.bandwidth, 1.0 / engine.sample_time
         if bandwidth is not None:
-            found = fit(*told, progress, model.memories)
+            found = fit(*told, progress)
             watched = {bandwidth}
         else:
             usual = bandwidth_for(rate, sum(log.rows for log in logs.values()))
-            found = fit_by_filter(*told, usual, progress, model.memories)
+            found = fit_by_filter(*told, usual, progress)
             watched = {bandwidth_for(rate, log.rows) for log in logs.values()}
             watched |= {tuned_bandwidth(rate, log.rows) for log in logs.values()}
             watched.add(found.bandwidth)
-        return with_room(found, engine, pieces, tolerances, model.sees, watched, model.memories)
+        return with_room(found, engine, pieces, model, watched)
 
     def simulate(
         self,

@@ -15,6 +15,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import chdtri, stdtrit
 
 from bondgraph.runtime.diagnosis.fitted import Left, Span, Suspect, Terms
@@ -68,6 +69,26 @@ def _inverse(curved: Array, spread: Array) -> Array:
     return np.asarray((vectors / (1.0 + np.maximum(values, 0.0))) @ vectors.T)
 
 
+def _coloured(moves: Mask) -> NDArray[np.int_]:
+    """A colour for each row, so that of one colour no two move the same residual (rows, residuals).
+
+    What moves apart is moved at once (Curtis, Powell and Reid 1974).
+
+    >>> _coloured(np.array([[1, 0, 0], [1, 1, 0], [0, 0, 1], [0, 1, 1]], dtype=bool)).tolist()
+    [0, 1, 0, 2]
+    """
+    found = np.zeros(len(moves), dtype=np.int_)
+    taken: list[Mask] = []  # by colour, the residuals that it moves
+    for k, own in enumerate(moves):
+        free = [c for c, others in enumerate(taken) if not (own & others).any()]
+        found[k] = free[0] if free else len(taken)
+        if free:
+            taken[free[0]] = taken[free[0]] | own
+        else:
+            taken.append(own)
+    return found
+
+
 class _Slopes(NamedTuple):
     """At some parameters: normalised residuals and added noise, (rows, residuals), with their
     slopes (p, rows, residuals), and the slopes of the logarithm of the variance (p, residuals)."""
@@ -86,7 +107,11 @@ class ErrorsInVariables:
     """
 
     def __init__(
-        self, runs: ResidualRows, free: Wanted, tolerances: Mapping[str, float]
+        self,
+        runs: ResidualRows,
+        free: Wanted,
+        tolerances: Mapping[str, float],
+        reads: Mapping[str, frozenset[str]],
     ) -> None:
         self._runs, self._free = runs, (*free.parameters, *runs.starts)
         self._shared = len(free.parameters)  # those of all logs stand first
@@ -101,6 +126,11 @@ class ErrorsInVariables:
         self.zeros[len(declared) :] = True
         self.scale = np.append(np.abs(declared), self._sizes[self._offset_at])
         self.size = len(self.names) + len(runs.late)
+        self._moves = np.array([
+            [n not in free.parameters or n in reads.get(r, (n,)) for r in runs.engine.residuals]
+            for n in (*self.names, *runs.names(runs.late))
+        ])  # fmt: skip
+        self._colours = _coloured(self._moves)
         self._low = np.full(self.size, -np.inf)
         self._high = np.full(self.size, np.inf)
         for k, value in enumerate(self.nominal):
@@ -214,18 +244,21 @@ class ErrorsInVariables:
         return np.where(valid, value, 0.0), np.where(valid, extra, 0.0), whole, noise
 
     def _slopes(self, at: Array) -> _Slopes:
-        size = len(at)
-        around = [at + s * _STEP * np.eye(size)[k] for k in range(size) for s in (1, -1)]
-        value, added, whole, _ = self._normal([at, *around])
-        apart = 2 * _STEP
+        value, added, whole, _ = self._normal([at, *self._around(at)])
         logs = np.log(np.maximum(whole, self._least))
-        return _Slopes(
-            value[0],
-            added[0],
-            (value[1::2] - value[2::2]) / apart,
-            (added[1::2] - added[2::2]) / apart,
-            (logs[1::2] - logs[2::2]) / apart,
-        )
+        by, added_by, log_by = (self._difference(x) for x in (value, added, logs))
+        return _Slopes(value[0], added[0], by, added_by, log_by)
+
+    def _around(self, at: Array) -> list[Array]:
+        """For each colour two points, with all that is fitted and has it a little more and less."""
+        steps = [_STEP * (self._colours == c) for c in range(self._colours.max(initial=-1) + 1)]
+        return [at + sign * step for step in steps for sign in (1.0, -1.0)]
+
+    def _difference(self, values: Array) -> Array:
+        """Slopes (p, ..., residuals) of what was found at a point and `_around` it."""
+        apart = (values[1::2] - values[2::2]) / (2 * _STEP)
+        shape = len(self._moves), *[1] * (values.ndim - 2), -1
+        return np.where(self._moves.reshape(shape), apart[self._colours], 0.0)
 
     def cost(self, delays: Array, value: Sequence[float]) -> float:
         """The sum of squares at values in SI units, inputs so many samples late."""
@@ -441,11 +474,9 @@ class ErrorsInVariables:
 
     def _terms(self, at: Array) -> tuple[Array, Array]:
         """The residuals, (rows, residuals), and of each parameter the term with it in them."""
-        count = self._shared
-        around = [at + s * _STEP * np.eye(len(at))[k] for k in range(count) for s in (1, -1)]
-        clean = self._rows([at, *around])[0]
-        share = (self.values(at) / self.scale)[:count, None, None]
-        return clean[0], share * (clean[1::2] - clean[2::2]) / (2 * _STEP)
+        clean = self._rows([at, *self._around(at)])[0]
+        share = (self.values(at) / self.scale)[: self._shared, None, None]
+        return clean[0], share * self._difference(clean)[: self._shared]
 
     def terms(self, at: Array) -> tuple[Terms, ...]:
         """Each residual as the term with the parameter that makes most of it, and all others."""

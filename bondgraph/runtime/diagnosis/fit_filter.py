@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 from bondgraph.runtime.diagnosis.errors_in_variables import Wanted
 from bondgraph.runtime.diagnosis.fitted import Fitted
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.parameter_fit import fit
-from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.tuning import FASTEST
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
@@ -25,12 +25,10 @@ def fit_by_filter(
     engine: Engine,
     pieces: Sequence[tuple[str, Piece]],
     free: Wanted,
-    tolerances: Mapping[str, float],
-    units: Mapping[str, str],
+    model: DiagnosisModel,
     noise: Mapping[str, float],
     usual: float,
     progress: Callable[[float], None] = lambda _: None,
-    memories: Sequence[Memory] = (),
 ) -> Fitted:
     """`fit` with a filter of the `usual` bandwidth (rad/s), or with a faster one that tells more.
 
@@ -39,10 +37,10 @@ def fit_by_filter(
     motion: it is taken only for errors of half the size or less.
     """
     own = engine.configured(bandwidth=usual)
-    best = fit(own, pieces, free, tolerances, units, noise, progress, memories)
+    best = fit(own, pieces, free, model, noise, progress)
     while (faster := _FASTER * best.bandwidth) * engine.sample_time <= FASTEST:
         own = engine.configured(bandwidth=faster)
-        found = fit(own, pieces, free, tolerances, units, noise, progress, memories)
+        found = fit(own, pieces, free, model, noise, progress)
         if not found.spread < best.spread - math.log(_LESS):
             break
         best = found

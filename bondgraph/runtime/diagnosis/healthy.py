@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import Expr, Op, Symbol, below, symbols, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
@@ -49,6 +49,7 @@ class DiagnosisModel(NamedTuple):
     what is nominal is so with them. `dynamic` are the parameters that are multiplied with what
     changes, as those of storages are: `SinceOnset` tries these in two ways. `signs` are those that
     parameters may have which are nominally zero, where an R would deliver power with the other.
+    `reads` are the parameters that may move a residual, without it all.
     `doubles` tells which two faults at once could look like a third one, when it is asked.
     """
 
@@ -64,6 +65,7 @@ class DiagnosisModel(NamedTuple):
     accepted: Mapping[tuple[str, str], float] = MappingProxyType({})
     dynamic: frozenset[str] = frozenset()
     signs: Mapping[str, int] = MappingProxyType({})
+    reads: Mapping[str, frozenset[str]] = MappingProxyType({})
 
     @property
     def nominal(self) -> dict[str, float]:
@@ -104,6 +106,7 @@ def diagnosis_model(
         doubles,
         dynamic=dynamic(graph, residuals),
         signs=dissipating_signs(graph),
+        reads=parameters_read(graph, residuals, program),
     )
 
 
@@ -171,6 +174,31 @@ def dynamic(graph: BondGraph, residuals: ResidualSet) -> frozenset[str]:
             if node.op is not Op.ADD:  # the terms of a sum do not touch each other
                 found |= own
     return frozenset(found)
+
+
+def parameters_read(
+    graph: BondGraph, residuals: ResidualSet, program: Program
+) -> dict[str, frozenset[str]]:
+    """By residual the parameters that may move it: those of its relation, and of where it begins.
+
+    An observer solves the machine: what it reads nobody asks, and it is left out.
+    """
+    behind = graph.initial_values()
+    behind |= {v.symbol.symbol: v.value for v in graph.values if v.value is not None}
+    names = {v.symbol.symbol: v.name for v in graph.values}
+    found = {}
+    for residual, info in zip(residuals.residuals, program.residuals, strict=True):
+        if info.follows:
+            continue
+        done: set[Symbol] = set()
+        todo = [n.symbol for n in below([residual.expr]) if n.op in (Op.SYM, Op.INT)]
+        while todo:
+            symbol = todo.pop()
+            if symbol not in done:
+                done.add(symbol)
+                todo += [s.symbol for s in symbols(behind[symbol])] if symbol in behind else []
+        found[info.name] = frozenset(names[s] for s in done if s in names)
+    return found
 
 
 def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict[str, Nature]:

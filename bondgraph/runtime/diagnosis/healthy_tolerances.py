@@ -7,11 +7,12 @@ thresholds too. Where a fit makes it narrower, as much of it stays as the logs n
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from bondgraph.runtime.diagnosis.fitted import Fitted
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.remembered import Memory, counted
 from bondgraph.runtime.diagnosis.tuning import kappa
 from bondgraph.runtime.log import Array
@@ -25,31 +26,29 @@ def with_room(
     found: Fitted,
     engine: Engine,
     pieces: Sequence[tuple[str, Piece]],
-    declared: Mapping[str, float],
-    sees: Mapping[str, Iterable[str]],
+    model: DiagnosisModel,
     bandwidths: Iterable[float],
-    memories: Sequence[Memory] = (),
 ) -> Fitted:
     """A fit whose tolerances leave room for all that its healthy logs have in the residuals.
 
-    `declared` are the relative tolerances that the thresholds of the `engine` are of, `sees` for
-    each residual its faults. With each of the filters (rad/s) the residuals at what was fitted are
-    compared with these thresholds: a tolerance is no smaller than the largest share of them that
-    any residual with this parameter needed, less what the noise of sensors explains.
+    Those that the `model` declares are what thresholds of the `engine` are of. With each of the
+    filters (rad/s) the residuals at what was fitted are compared with these thresholds: a tolerance
+    is no smaller than the largest share of them that any residual with this parameter needed, less
+    what the noise of sensors explains.
     """
     if not found.tolerances:
         return found
     share, logs = np.zeros(len(engine.residuals)), _less_offsets(found, engine, pieces)
     for bandwidth in sorted(set(bandwidths)):
         own = engine.configured(found.values, bandwidth=bandwidth)
-        share = np.maximum(share, _needed(own, found, logs, memories))
+        share = np.maximum(share, _needed(own, found, logs, model.memories))
     needed: dict[str, float] = {}
     for k, name in enumerate(engine.residuals):
-        for fault in sees.get(name, ()):
+        for fault in model.sees.get(name, ()):
             needed[fault] = max(float(share[k]), needed.get(fault, 0.0))
     parameters = []
     for one in found.parameters:
-        before = declared.get(one.name, 0.0)
+        before = model.tolerances.get(one.name, 0.0)
         least = needed.get(one.name, 0.0) * before
         tolerance = None if one.tolerance is None else narrower(max(one.tolerance, least), before)
         parameters.append(one._replace(tolerance=tolerance))

@@ -20,7 +20,7 @@ from bondgraph.runtime.diagnosis.errors_in_variables import (
     Wanted,
 )
 from bondgraph.runtime.diagnosis.fitted import SURE, Delay, Fitted, Fitting, Start
-from bondgraph.runtime.diagnosis.remembered import Memory
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.diagnosis.told_combinations import combinations, untold
 from bondgraph.runtime.log import Array
@@ -38,22 +38,21 @@ def fit(
     engine: Engine,
     pieces: Sequence[tuple[str, Piece]],
     free: Wanted,
-    tolerances: Mapping[str, float],
-    units: Mapping[str, str],
+    model: DiagnosisModel,
     noise: Mapping[str, float],
     progress: Callable[[float], None] = lambda _: None,
-    memories: Sequence[Memory] = (),
 ) -> Fitted:
     """Fit what is `free` of an engine to pieces of healthy logs, by the names of these.
 
-    Tolerances (relative) say where parameters are looked for that no log tells, and bound nothing.
-    `noise` are standard deviations of signals that are known, in their unit; of other sensors it is
-    estimated, inputs are exact. A residual that keeps something of its first sample (`memories`)
+    The tolerances of the `model` say where parameters are looked for that no log tells, and bound
+    nothing. `noise` are standard deviations of signals that are known, in their unit; of other
+    sensors it is estimated, inputs are exact. A residual that keeps something of its first sample
     counts up to the first gap of a log. Raises ValueError where the logs are too short.
     """
+    tolerances, units = model.tolerances, model.units
     seen = {**estimated_noise(engine, [p.samples for _, p in pieces]), **noise}
-    runs = ResidualRows(engine, pieces, [seen[k.path] for k in engine.signals], memories)
-    problem = ErrorsInVariables(runs, free, tolerances)
+    runs = ResidualRows(engine, pieces, [seen[k.path] for k in engine.signals], model.memories)
+    problem = ErrorsInVariables(runs, free, tolerances, model.reads)
     at = np.zeros(problem.size)
     problem.weigh(at, first=True)
     for k in range(_ROUNDS):

@@ -27,8 +27,7 @@ def started(
         time = engine.sample_time * np.arange(float(len(samples)))
         piece = Piece(time, samples, "later" if later else "")
         try:
-            found = fit(engine, [("log", piece)], Wanted(()), model.tolerances, model.units, {},
-                        memories=model.memories)  # fmt: skip
+            found = fit(engine, [("log", piece)], Wanted(()), model, {})
             told = found.begun("log", 0.0)
         except ValueError:  # too short
             told = {}

@@ -1,0 +1,69 @@
+"""Slopes of parameters that move different residuals are taken at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bondgraph
+from bondgraph import Course, Log, Scenario
+from bondgraph.runtime.diagnosis.errors_in_variables import ErrorsInVariables, Wanted
+from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
+from bondgraph.runtime.monitoring.whole_logs import stretches
+
+ROOT = Path(__file__).parents[4]
+MODELS = [
+    *(f"models/{name}" for name in ("dc_motor", "two_tanks", "oven", "hydraulic_actuator",
+      "quarter_car", "khepera", "cable", "drive", "slider_crank", "rigid_gear")),
+    *(f"tests/adversary/models/{name}" for name in ("battery", "boiler", "clutch", "cylinder",
+      "gas_tank", "gear_train", "buck_duty", "h_bridge", "three_tanks")),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_no_parameter_moves_a_residual_that_is_said_not_to_read_it(model: str) -> None:
+    """Bit by bit, whatever the samples are: what is not read has no part in what is computed."""
+    c = bondgraph.compile(ROOT / f"{model}.bg", rate=100.0)
+    engine = c.engine(native=False)
+    draw = np.random.default_rng(len(model))
+    samples = draw.uniform(0.1, 1.0, (40, len(engine.signals)))
+    for at, known in enumerate(engine.signals):
+        if known.kind == "mode" or known.counts is not None:
+            samples[:, at] = np.round(samples[:, at] * 3.0)
+    reads = c.diagnosis_model.reads
+    assert set(reads) <= set(engine.residuals)
+    for name, value in engine.parameters.items():
+        moved = engine.configured({name: 1.3 * value or 0.3}, bounds=False)
+        one, other = (e.run(samples).value for e in (engine.configured(bounds=False), moved))
+        for k, residual in enumerate(engine.residuals):
+            if name not in reads.get(residual, (name,)):
+                assert np.array_equal(one[:, k], other[:, k], equal_nan=True), (name, residual)
+
+
+def _tanks(reads: bool) -> tuple[ErrorsInVariables, Sequence[str]]:
+    c = bondgraph.compile(ROOT / "models" / "two_tanks.bg", rate=10.0)
+    time = np.arange(4002) / 10.0
+    inflow = 8e-5 + 3e-5 * np.sin(0.05 * time) + 3e-5 * np.sin(0.21 * time)
+    course = Course(None, tuple(zip(time.tolist(), inflow.tolist(), strict=True)))
+    log: Log = c.simulate(Scenario("healthy", duration=400.0, inputs={"Q": course})).log
+    engine, model = c.engine(), c.diagnosis_model
+    pieces = stretches(engine, [("log", log)], None, None)
+    noise = [0.01 * float(np.std(log.columns[k.path])) for k in engine.signals]
+    names = tuple(n for n, v in model.faults.items() if v is not None and n in engine.parameters)
+    runs = ResidualRows(engine, pieces, noise, model.memories)
+    free = Wanted(names, ("Q",))
+    return ErrorsInVariables(runs, free, {}, model.reads if reads else {}), (*names, "Q")
+
+
+def test_slopes_that_are_taken_at_once_are_those_that_are_taken_one_by_one() -> None:
+    together, names = _tanks(reads=True)
+    apart, _ = _tanks(reads=False)
+    assert len(set(together._colours)) < len(set(apart._colours)) == together.size
+    at = np.linspace(-0.1, 0.2, together.size)
+    one, other = together._slopes(at), apart._slopes(at)
+    for a, b in zip(one, other, strict=True):
+        assert np.abs(a - b).max() <= 1e-9 * np.abs(b).max()
+    assert one.by.any(axis=(1, 2)).all(), names
