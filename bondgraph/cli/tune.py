@@ -243,16 +243,22 @@ def _result(compilation: Compilation, best: Tuned, found: list[Tuned]) -> dict[s
             {
                 "fault": s.hypothesis.fault,
                 "kind": s.hypothesis.kind,
-                "change": s.size,
+                "change": None if s.size is None else _change(s, s.size),
                 "unit": s.hypothesis.unit,
                 "relative": _relative(compilation, s),
-                "smooth": s.smooth,
+                "smooth": None if s.smooth is None else _change(s, s.smooth),
                 "delay": s.delay,
                 "residual": s.residual or None,
+                "share": s.share,
             }
             for s in best.shown
         ],
     }
+
+
+def _change(shown: Shown, size: float) -> float:
+    """In the unit of the hypothesis; a gain without one is a share."""
+    return shown.hypothesis.told(size)[0] if shown.hypothesis.unit else size
 
 
 def _relative(compilation: Compilation, shown: Shown) -> float | None:
@@ -290,7 +296,7 @@ def _lines(
     for shown in best.shown:
         row = _row(compilation, shown)
         if row is None:
-            hidden.append(_name(shown))
+            hidden.append(shown)
         else:
             rows.append(row)
     lines += [*console.columns(limits), ""]
@@ -308,8 +314,12 @@ def _lines(
                   " not seen", ""]  # fmt: skip
     lines += [f"The smallest change that is sure to show within {best.window:g} s, in nine windows"
               " of ten", *console.columns(rows)]  # fmt: skip
-    if hidden:
-        lines += ["", "Cannot be seen: " + ", ".join(hidden)]
+    never = [_name(shown) for shown in hidden if not shown.share]
+    if never:
+        lines += ["", "Cannot be seen: " + ", ".join(never)]
+    at_times = [f"{_name(s)} ({100 * s.share:.2g} % of them)" for s in hidden if s.share]
+    if at_times:
+        lines += ["", f"Shows in fewer windows, with some motion only: {', '.join(at_times)}"]
     return [*lines, "", f"Written to {output}"]
 
 
@@ -323,8 +333,9 @@ def _row(compilation: Compilation, shown: Shown) -> tuple[str, ...] | None:
     if shown.size is None or shown.delay is None:
         return None
     share = "" if relative is None else f"{100 * relative:.3g} %"
-    gain = shown.hypothesis.kind == "gain"
-    size = "" if gain else f"{shown.size:.3g} {shown.hypothesis.unit}".rstrip()
+    change, unit = shown.hypothesis.told(shown.size)
+    size = "" if unit == "%" else f"{change:.3g} {unit}".rstrip()
+    share = "" if shown.hypothesis.kind == "gain" and size else share
     note = ""
     if relative is not None and relative > 1:
         note = "  more than the value itself"

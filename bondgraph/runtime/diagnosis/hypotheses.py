@@ -83,6 +83,18 @@ class Hypothesis(NamedTuple):
     held: Stuck | None = None
     level: float = 1.0
 
+    def told(self, size: float) -> tuple[float, str]:
+        """A size as people are told it, and its unit.
+
+        >>> Hypothesis("I", "gain", "", 0.3, False).told(0.02)
+        (2.0, '%')
+        >>> Hypothesis("T", "gain", "K", 0.3, False, level=300.0).told(0.01)
+        (3.0, 'K')
+        """
+        if self.kind != "gain":
+            return size, self.unit
+        return (size * self.level, self.unit) if self.unit else (100.0 * size, "%")
+
 
 class _Lane:
     """One hypothesis of a bank: engines at both ends of its slope, and since when it holds."""

@@ -367,6 +367,4 @@ def _size(hypothesis: Hypothesis, change: float) -> tuple[float, str]:
     if hypothesis.kind == "gain" and not hypothesis.turned:
         left = 1.0 - size  # told is true/left: nothing is left of what is told for no reason
         size = size / left if abs(left) > 1e-3 else math.copysign(1e3, left)
-    if hypothesis.kind != "gain":
-        return size, hypothesis.unit
-    return (size * hypothesis.level, hypothesis.unit) if hypothesis.unit else (100.0 * size, "%")
+    return hypothesis.told(size)

@@ -31,7 +31,7 @@ class Shown(NamedTuple):
     storage that becomes another one keeps what it holds, and what is measured of it jumps; where
     nothing jumps, as of what comes on slowly, it takes a change of `smooth`. What shows at so many
     times of the window, by a sample or by a sum of rows, is its `course`, infinite before anything
-    does.
+    does. What shows in fewer windows than that, as of a fan while it is off, does in this `share`.
     """
 
     hypothesis: Hypothesis
@@ -40,6 +40,7 @@ class Shown(NamedTuple):
     residual: str
     smooth: float | None = None
     course: tuple[float, ...] = (math.inf,) * _TIMES
+    share: float = 0.0
 
 
 class _Seen(NamedTuple):
@@ -206,8 +207,10 @@ def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[s
     course = tuple(np.sort([s.course for s in found], axis=0)[at].tolist())
     size = sorted(s.size for s in found)[at]
     seen = [s for s in found if math.isfinite(s.size)]
+    share = len(seen) / len(found)
     if not math.isfinite(size) or not seen:
-        return Shown(hypothesis, None, None, "", course=course)
+        return Shown(hypothesis, None, None, "", course=course, share=share)
     delay = float(np.median([s.delay for s in seen]))
     often = np.bincount([s.residual for s in seen])
-    return Shown(hypothesis, size, delay, residuals[int(np.argmax(often))], course=course)
+    first = residuals[int(np.argmax(often))]
+    return Shown(hypothesis, size, delay, first, course=course, share=share)

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import json
+import math
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from bondgraph import Log
 from bondgraph.cli.tune import _best, _score, _usual
 from bondgraph.runtime.diagnosis.calibration import Tuned
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.shown_sizes import Shown
 from bondgraph.runtime.diagnosis.tuning import Tuning
+from bondgraph.runtime.log_file import write_log
 from tests.unit.cli.conftest import MODELS, Command
 
 
@@ -74,3 +80,44 @@ def test_a_folder_without_a_log_is_told(bondgraph: Command, command: str, tmp_pa
     (tmp_path / "notes.txt").touch()
     done = bondgraph(command, MODELS / "dc_motor.bg", tmp_path)
     assert done.status == 1 and f"no log to read in {tmp_path}" in done.err
+
+
+def test_what_shows_at_times_is_told_so_and_a_thermometer_in_kelvin(
+    bondgraph: Command, tmp_path: Path
+) -> None:
+    """A fan is off for the first half of a log; a wall of one store heats in closed form."""
+    model, log = tmp_path / "wall.bg", tmp_path / "log.csv"
+    model.write_text(
+        """bg 1
+    model Wall {
+        input P : W; input Ta : K; input fan
+        param C = 2000 J/K; param h0 = 4 W/K; param h1 = 6 W/K
+        Sf:P -> 0:wall; wall -> C:C; wall -> De:T
+        wall -> 1:out; out -> R:loss { f = (h0 + h1*fan)*e }; out -> Se:Ta
+    }"""
+    )
+    draw, count = np.random.default_rng(4), 8000
+    fan = np.where(np.arange(count) < count // 2, 0.0, 1.0)
+    power = 60.0 + 20.0 * np.sign(np.sin(np.arange(count) / 160.0))
+    wall = np.full(count, 305.0)
+    for k in range(count - 1):  # input and fan are held from sample to sample
+        loss = 4.0 + 6.0 * fan[k]
+        end = 290.0 + power[k] / loss
+        wall[k + 1] = end + (wall[k] - end) * math.exp(-loss / 2000.0)
+    noisy = wall + 0.05 * draw.standard_normal(count)
+    columns = {"P": power, "Ta": np.full(count, 290.0), "fan": fan, "T": noisy}
+    write_log(Log(np.arange(float(count)), columns, {}, {}), log)
+    words = ("tune", model, log, "--bandwidth", "0.05", "-o", tmp_path / "t.json")
+    done = bondgraph(*words)
+    assert done.status == 0, done.err
+    line = r"^Shows in fewer windows, with some motion only: h1 \((\d+) %"
+    told = re.search(line, done.out, re.M)
+    assert told is not None, done.out
+    assert float(told[1]) == pytest.approx(50.0, abs=10.0)
+    record = json.loads(bondgraph(*words, "--json").out)
+    faults = {(f["fault"], f["kind"]): f for f in record["faults"]}
+    assert faults["h1", "value"]["change"] is None
+    assert faults["h0", "value"]["share"] == 1.0
+    gain, offset = faults["T", "gain"], faults["T", "offset"]
+    assert gain["unit"] == offset["unit"] == "K"
+    assert gain["change"] == pytest.approx(offset["change"], rel=0.1)  # it is all of 300 K
