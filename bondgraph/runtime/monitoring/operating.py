@@ -15,7 +15,7 @@ from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.outside import Outside
 from bondgraph.passes.elaboration.quantities import PURE
 from bondgraph.passes.elaboration.scope import Typed
-from bondgraph.runtime.log import Log, LogError, Mask, labelled
+from bondgraph.runtime.log import LEFT_OUT, Log, LogError, Mask, labelled
 from bondgraph.runtime.monitoring.columns import Mapped, called
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.text.diagnostic import CompileError, Report
@@ -88,8 +88,10 @@ class Operating:
         column = column or called(name, log.columns) or spelt.get(name)
         if column is None and name != _TIME:
             there = ", ".join(labelled(c)[0] for c in log.columns) or "no column"
-            message = f"--while asks for `{name}`, and no column is called so"
+            message = f"--while asks for `{name}`, and no column of numbers is called so"
             help = f"there is {there}; or {_TIME}, the time in s"
+            if LEFT_OUT in log.meta:  # states in words, often
+                help += f"; columns without numbers: {log.meta[LEFT_OUT]}"
             raise LogError(self._name, None, message, help)
         found: list[float] = (log.time if column is None else log.columns[column]).tolist()
         return found

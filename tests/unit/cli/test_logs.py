@@ -263,7 +263,7 @@ def test_while_is_the_same_in_tune(at: Path, capsys: pytest.CaptureFixture[str])
     [
         ("pump >", "a value"),
         ("pump_speed > 5 bar", "unit"),
-        ("pomp > 0", "no column is called so; there is pump speed, Tin, T1"),
+        ("pomp > 0", "no column of numbers is called so; there is pump speed, Tin, T1"),
         ("", "empty"),
     ],
 )
@@ -275,6 +275,19 @@ def test_a_wrong_while_is_told(
         assert main([command, "tank.bg", "log.csv", "--while", words]) == 1
         errors = capsys.readouterr().err
         assert message in errors and "Traceback" not in errors
+
+
+def test_while_over_words_says_that_there_are_no_numbers(
+    at: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    head, *rows = _pumped().splitlines()
+    text = "\n".join([f"{head},state", *(f"{row},RUN" for row in rows)])
+    Path("log.csv").write_text(text + "\n")
+    for command in ("monitor", "tune"):
+        assert main([command, "tank.bg", "log.csv", "--while", "state == RUN"]) == 1
+        errors = capsys.readouterr().err
+        assert "--while asks for `state`, and no column of numbers is called so" in errors
+        assert "columns without numbers: state (`RUN`)" in errors
 
 
 def test_a_machine_that_was_never_on(monitored: Monitored) -> None:
