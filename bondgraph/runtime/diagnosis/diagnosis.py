@@ -142,8 +142,6 @@ class Diagnosis:
                 self._status.relearning(float(part.time[0]), fresh, out)
             line = part.bound + self._levels.beyond(self._limits)
             line += self._offsets.room(part, line, self._history)
-            if self._learning is not None:  # sums watch on: a step of a command is no fault
-                line[:, self._learning.unsure] = math.nan
             line[~np.isfinite(line)] = math.nan
             self._last.append(Batch(part.value, part.valid, line))
             for k, fresh in self._detection.samples(part, line):

@@ -21,14 +21,11 @@ class Driving:
 
     What a model leaves out grows with the motion, and inputs tell the motion that is wanted; a
     sensor may be what is wrong. `reads` says which residual reads which input, (inputs,
-    residuals). A lag that the model leaves out shows in how fast inputs are, not in how far they
-    go: so how far each goes within a time constant of the filter, of which a sample later `keep` is
-    left, has a range as well.
+    residuals).
     """
 
-    def __init__(self, at: Sequence[int], reads: Mask, keep: float) -> None:
-        self._at, self._keep = list(at), keep
-        self._reads = reads = np.vstack([reads, reads])
+    def __init__(self, at: Sequence[int], reads: Mask) -> None:
+        self._at, self._reads = list(at), reads
         self._range = _nothing(reads.shape)  # of each input in rows that counted for a residual
         self._means = _nothing(reads.shape)  # of the means of its rows, as slow as the filter is
         self._terms = _nothing(reads.shape)  # of what it adds to that residual
@@ -39,42 +36,16 @@ class Driving:
         return bool(self._at)
 
     def restart(self) -> None:
-        """The residuals begin anew."""
-        self._slow: Array | None = None  # inputs behind a filter of first order
-        self._begin()
-
-    def _begin(self) -> None:
         """A row begins."""
-        self._row = _nothing((2 * len(self._at), 1))
-
-    def _moved(self, samples: Array) -> Array:
-        """The inputs, and how far each is from where it was about a time constant ago.
-
-        (n, twice as many). A slow drift goes no way in that time, however far it comes; a step goes
-        all of its height. Noise of a measured input is smoothed. Without a value an input stays.
-        """
-        from scipy.signal import lfilter
-
-        own = np.where(np.isfinite(samples[:, self._at]), samples[:, self._at], math.nan)
-        slow = own[0] if self._slow is None else self._slow
-        slow = np.where(np.isfinite(slow), slow, own[0])
-        last = np.maximum.accumulate(
-            np.where(np.isfinite(own), np.arange(len(own))[:, None], -1), axis=0
-        )
-        held = np.where(last >= 0, np.take_along_axis(own, np.maximum(last, 0), axis=0), slow)
-        smooth, _ = lfilter(
-            [1.0 - self._keep], [1.0, -self._keep], held, axis=0, zi=self._keep * slow[None]
-        )
-        self._slow = smooth[-1]
-        return np.hstack([own, own - smooth])
+        self._row = _nothing((len(self._at), 1))
 
     def anew(self, samples: Array, limit: Array) -> Mask:
         """Which residuals are driven as never before with further (n, signals) samples of a row.
 
-        That is where an input that they read goes over twice the range that it had, or twice as far
-        within a time constant, and a twentieth of what this adds to them is above their `limit`.
+        That is where an input that they read goes over twice the range that it had, and a twentieth
+        of what this adds to them is above their `limit`.
         """
-        own = self._moved(samples)
+        own = np.where(np.isfinite(samples[:, self._at]), samples[:, self._at], math.nan)
         for table, most in ((self._row[0], np.fmin), (self._row[1], np.fmax)):
             table[:] = most(table, most.reduce(own)[:, None])
         before = self._range[1] - self._range[0]
@@ -90,10 +61,9 @@ class Driving:
         `added` is what the inputs add to them, (inputs, residuals), NaN where nobody knows.
         """
         if not valid.any():
-            self._begin()
+            self.restart()
             return
-        mean = np.tile(samples[:, self._at].mean(axis=0)[:, None], (2, 1))
-        added = np.vstack([added, added])  # what a unit does is the same, however fast it came
+        mean = samples[:, self._at].mean(axis=0)[:, None]
         for table, (low, high) in (
             (self._range, self._row), (self._means, (mean, mean)), (self._terms, (added, added))
         ):  # fmt: skip
@@ -103,7 +73,7 @@ class Driving:
             with np.errstate(divide="ignore", invalid="ignore"):
                 unit = np.subtract(*self._terms[::-1]) / np.subtract(*self._means[::-1])
             self._effect = np.where(unit >= 0.0, unit, math.inf)
-        self._begin()
+        self.restart()
 
     def state(self) -> dict[str, Any]:
         """All that `resume` needs, as plain JSON."""

@@ -57,7 +57,7 @@ class Learning:
     every further row of a healthy machine more is known (see `Noise`). Noise is what is left of a
     residual once parameters within their tolerances are taken as they fit best. It is not taken for
     less than a ten-thousandth of what signals have moved the residual by (see `_least`), nor for
-    less than what a single sample of the first rows has shown, nor of the first rows anew.
+    less than what a single sample of the first rows has shown.
 
     A residual that drifts or is an approximation has no such noise. What neighbouring rows differ
     by is, and where it has come to: no sample can tell that from a machine that is well, and no sum
@@ -68,8 +68,7 @@ class Learning:
     learned anew where the machine is driven as never before (see `Driving`): what is known then is
     the noise of a machine at rest. Where tolerances were declared, the adaptive threshold grows
     with the motion, and tells what the model is wrong by: the residual is watched on, but `unsure`,
-    so that it may be anywhere within its tolerances, and by sums of rows only: a sample of a motion
-    that was not met has no limit.
+    so that it may be anywhere within its tolerances.
     """
 
     def __init__(
@@ -101,8 +100,7 @@ class Learning:
         self.unsure = np.zeros(len(used), dtype=bool)  # known from a machine that was hardly driven
         reads = [[path in own for own in sees] for path in paths]
         reading = np.array(reads, dtype=bool).reshape(len(paths), len(used))
-        keep = math.exp(-engine.bandwidth * engine.sample_time)
-        self._driving = Driving([place[path] for path in paths], reading, keep)
+        self._driving = Driving([place[path] for path in paths], reading)
         self._approximate = np.array([n.approximate for n in natures], dtype=bool)
         self._drifts = np.array([n.drifts for n in natures], dtype=bool)
         self._stays = self._approximate | self._drifts
@@ -229,7 +227,7 @@ class Learning:
         self._added[0] = np.fmin(self._added[0], np.where(valid, added, math.nan))
         self._added[1] = np.fmax(self._added[1], np.where(valid, added, math.nan))
         self._driving.learned(row.samples, valid, added[self._inputs])
-        first = np.where(valid & (self._wanted | self.unsure), self._peak, -math.inf)
+        first = np.where(valid & self._wanted, self._peak, -math.inf)
         self._highest = np.maximum(self._highest, first)
         settings = [now | before for now, before in zip(self._now, self._before, strict=True)]
         raw = np.where(valid, row.value + self.limits[:, 4], math.nan)
