@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from bondgraph.ir.expr import Expr, Op, Symbol, below, symbols, topological
+from bondgraph.ir.expr import Expr, Op, below, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
@@ -16,7 +16,7 @@ from bondgraph.ir.signature_matrix import DoubleFaults, ModeSignatures, Signatur
 from bondgraph.runtime.diagnosis.dissipation import dissipating_signs
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis, Stuck
-from bondgraph.runtime.diagnosis.remembered import Memory, memories
+from bondgraph.runtime.diagnosis.remembered import Memory, behind, memories
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.parameters import Values, units
 from bondgraph.text.tuples import NamedTuple
@@ -49,7 +49,7 @@ class DiagnosisModel(NamedTuple):
     what is nominal is so with them. `dynamic` are the parameters that are multiplied with what
     changes, as those of storages are: `SinceOnset` tries these in two ways. `signs` are those that
     parameters may have which are nominally zero, where an R would deliver power with the other.
-    `reads` are the parameters that may move a residual, without it all.
+    `reads` are by residual the parameters that may move it; any may move one that is not there.
     `doubles` tells which two faults at once could look like a third one, when it is asked.
     """
 
@@ -183,20 +183,13 @@ def parameters_read(
 
     An observer solves the machine: what it reads nobody asks, and it is left out.
     """
-    behind = graph.initial_values()
-    behind |= {v.symbol.symbol: v.value for v in graph.values if v.value is not None}
     names = {v.symbol.symbol: v.name for v in graph.values}
     found = {}
     for residual, info in zip(residuals.residuals, program.residuals, strict=True):
         if info.follows:
             continue
-        done: set[Symbol] = set()
-        todo = [n.symbol for n in below([residual.expr]) if n.op in (Op.SYM, Op.INT)]
-        while todo:
-            symbol = todo.pop()
-            if symbol not in done:
-                done.add(symbol)
-                todo += [s.symbol for s in symbols(behind[symbol])] if symbol in behind else []
+        nodes = below([residual.expr])
+        done = behind(graph, [n.symbol for n in nodes if n.op in (Op.SYM, Op.INT)])
         found[info.name] = frozenset(names[s] for s in done if s in names)
     return found
 

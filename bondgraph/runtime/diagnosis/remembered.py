@@ -71,16 +71,21 @@ def _starts(
     """
     if not own or follows:
         return frozenset(own.values())
-    behind = graph.initial_values()
-    behind |= {v.symbol.symbol: v.value for v in graph.values if v.value is not None}
-    todo = [n.symbol for n in below([relation]) if n.op is Op.INT]
-    found: dict[Symbol, None] = {}
+    found = behind(graph, [n.symbol for n in below([relation]) if n.op is Op.INT])
+    return frozenset(name for node, name in own.items() if node.symbol in found)
+
+
+def behind(graph: BondGraph, found: Iterable[Symbol]) -> set[Symbol]:
+    """These symbols, and all by which their values are declared, or where an integral begins."""
+    values = graph.initial_values()
+    values |= {v.symbol.symbol: v.value for v in graph.values if v.value is not None}
+    todo, done = list(found), set[Symbol]()
     while todo:
         symbol = todo.pop()
-        if symbol not in found:
-            found[symbol] = None
-            todo += [s.symbol for s in symbols(behind[symbol])] if symbol in behind else []
-    return frozenset(name for node, name in own.items() if node.symbol in found)
+        if symbol not in done:
+            done.add(symbol)
+            todo += [s.symbol for s in symbols(values[symbol])] if symbol in values else []
+    return done
 
 
 def _memories(program: Program) -> tuple[Memory, ...]:
