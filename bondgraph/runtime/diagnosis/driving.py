@@ -14,6 +14,33 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 
 _WIDER = 2.0  # times the range of an input that noise is known for
 _LEFT_OUT = 0.05  # of what an input adds to a residual: about what a model is wrong by
+_PART = 0.5  # of what an input adds, which no model is wrong by that anybody watches with
+
+
+class Away:
+    """A residual which `stood` somewhere with inputs in their ranges (2, inputs), and rows since.
+
+    A row is misread where the residual is away by what one input adds to it from where this can
+    have been: by all of what it is beyond its range, and by this range at most. A model that is
+    wrong is so by a part of what inputs add.
+    """
+
+    def __init__(self, at: Sequence[int], ranges: Array, reads: Mask, stood: float) -> None:
+        self._at, self._reads, self._stood = at, reads, stood
+        self._low, self._high = ranges
+        self.misread = 0  #: rows
+
+    def row(self, samples: Array, unit: Array, value: float) -> None:
+        """A row more, (n, signals); what a unit of each input adds, and the residual behind it."""
+        means = samples[:, self._at].mean(axis=0)
+        with np.errstate(invalid="ignore"):
+            beyond = np.fmax(means - self._high, 0.0) - np.fmax(self._low - means, 0.0)
+            most = beyond + np.copysign(self._high - self._low, beyond)
+        known = self._reads & np.isfinite(most) & np.isfinite(unit) & (beyond != 0.0)
+        least, most = (np.where(known, unit * side, 0.0) for side in (beyond, most))
+        moved = value - self._stood
+        fits = (np.sign(least) == np.sign(moved)) & (abs(moved) < (1.0 + _PART) * np.abs(most))
+        self.misread += bool(fits.any() and _PART * np.abs(least).sum() < abs(moved))
 
 
 class Driving:
@@ -22,6 +49,9 @@ class Driving:
     What a model leaves out grows with the motion, and inputs tell the motion that is wanted; a
     sensor may be what is wrong. `reads` says which residual reads which input, (inputs,
     residuals).
+
+    An input that is measured may be read wrongly. Then the residual stays away by all that this
+    adds to it, and nothing has moved but a reading.
     """
 
     def __init__(self, at: Sequence[int], reads: Mask) -> None:
@@ -54,6 +84,10 @@ class Driving:
             strange = self._reads & (_LEFT_OUT * self._effect * now > limit)
         strange &= (now > _WIDER * before) & (before >= 0.0)
         return np.asarray(strange.any(axis=0))
+
+    def away(self, k: int, stood: float) -> Away:
+        """Residual `k` is driven as never before; it `stood` there so far."""
+        return Away(self._at, self._range[:, :, k].copy(), self._reads[:, k], stood)
 
     def learned(self, samples: Array, valid: Mask, added: Array) -> None:
         """A row (n, signals) is over that counts for the residuals which are `valid`.

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.driving import Driving
+from bondgraph.runtime.diagnosis.driving import Away, Driving
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.history import within_tolerance
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
@@ -66,7 +66,8 @@ class Learning:
     Noise is learned for each position of the switches that a residual reads: it comes from other
     readings then. Where they never rest for long, it is learned for all of them together. And it is
     learned anew where the machine is driven as never before (see `Driving`): what is known then is
-    the noise of a machine at rest. Where tolerances were declared, the adaptive threshold grows
+    the noise of a machine at rest. Where the way of a residual is that of an input which is read
+    wrongly, what is known of it holds. Where tolerances were declared, the adaptive threshold grows
     with the motion, and tells what the model is wrong by: the residual is watched on, but `unsure`,
     so that it may be anywhere within its tolerances.
     """
@@ -98,6 +99,9 @@ class Learning:
         sees = [model.sees.get(r, ()) for r in engine.residuals]
         self._covered = np.array([any(model.tolerances.get(f) for f in own) for own in sees])
         self.unsure = np.zeros(len(used), dtype=bool)  # known from a machine that was hardly driven
+        self._read = tuple(h for path in paths for h in known
+                           if h.kind == "offset" and h.fault == path)  # fmt: skip
+        self._forgotten: dict[int, _Known] = {}  # for a motion that may be none
         reads = [[path in own for own in sees] for path in paths]
         reading = np.array(reads, dtype=bool).reshape(len(paths), len(used))
         self._driving = Driving([place[path] for path in paths], reading)
@@ -199,8 +203,12 @@ class Learning:
 
     def _forget(self, k: int) -> None:
         """What is known of the noise of a residual does not hold any longer."""
-        for row in self._rows:
-            row.value[k] = row.average[k] = math.nan
+        self._forgotten[k] = _Known(
+            self.limits[k].copy(), self._sigma[k], self._learned[k], self._highest[:, k].copy(),
+            int(self._counts[k]), int(self._due[k]), bool(self.unsure[k]),
+            self._driving.away(k, float(self.limits[k, 4])),
+        )  # fmt: skip
+        self._lose(k)
         self._counts[k], self._due[k] = 0, FIRST
         self._sigma[k], self._learned[k] = {}, frozenset()
         self._highest[:, k] = -math.inf
@@ -208,6 +216,34 @@ class Learning:
             self.unsure[k] = True
         else:
             self._wanted[k], self.limits[k, 0] = True, math.inf
+
+    def _misread(self, samples: Array, value: Array, unit: Array) -> Mask:
+        """Which residuals have no noise of a motion in most of the rows that it is learned from.
+
+        What was forgotten of them holds. Here is a row more of `samples`; `value` has those that
+        count, and `unit` what inputs add for one, (inputs, residuals).
+        """
+        found = np.zeros(len(value), dtype=bool)
+        for k, old in self._forgotten.items():
+            if np.isfinite(value[k]):
+                old.away.row(samples, unit[:, k], float(value[k]))
+            found[k] = 2 * old.away.misread > FIRST
+        for k in np.flatnonzero(found).tolist():
+            self._recall(k)
+        return found
+
+    def _recall(self, k: int) -> None:
+        """What was forgotten of a residual holds."""
+        old = self._forgotten.pop(k)
+        self._lose(k)
+        self.limits[k], self._sigma[k], self._learned[k] = old.limits, old.sigma, old.learned
+        self._highest[:, k], self._counts[k], self._due[k] = old.highest, old.rows, old.due
+        self.unsure[k], self._wanted[k] = old.unsure, False
+
+    def _lose(self, k: int) -> None:
+        """The rows of a residual so far count no longer."""
+        for row in self._rows:
+            row.value[k] = row.average[k] = math.nan
 
     def alarm(self, held: Array) -> None:
         """Something is wrong, and may have been for some rows, as many as are `held` or more."""
@@ -223,7 +259,7 @@ class Learning:
         known with it.
         """
         valid, slopes = row.valid & healthy, row.slopes[self._values]
-        added = self._terms(row)
+        added, unit = self._terms(row)
         self._added[0] = np.fmin(self._added[0], np.where(valid, added, math.nan))
         self._added[1] = np.fmax(self._added[1], np.where(valid, added, math.nan))
         self._driving.learned(row.samples, valid, added[self._inputs])
@@ -238,7 +274,7 @@ class Learning:
             tilt = row.average.slopes[self._values]
         self._rows.append(_Healthy(raw, row.bound, slopes, average, tilt, settings))
         self._counts += valid
-        fresh = np.zeros_like(valid)
+        fresh = self._misread(row.samples, raw, unit)
         rest: tuple[Array, Array, Array, Array] | None = None
         for k in np.flatnonzero(valid & self._used & ~self.hopeless).tolist():
             if self._wanted[k] and self._sigma[k] and settings[k] <= self._learned[k]:
@@ -251,16 +287,22 @@ class Learning:
         self._now, self._before = [frozenset() for _ in self._now], self._now
         return fresh
 
-    def _terms(self, row: Row) -> Array:
-        """What signals add to residuals, (signals, residuals), while few rows are known."""
+    def _terms(self, row: Row) -> tuple[Array, Array]:
+        """What signals add to residuals, (signals, residuals), while few rows are known.
+
+        And what inputs add for a unit, (inputs, residuals).
+        """
+        known = (*self._gains, *self._read)
+        slopes = np.full((len(known), len(self._used)), math.nan)
         if not ((self._counts < _MANY) & self._used & ~self.hopeless).any():
             self._bank = None
-            return np.full((len(self._gains), len(self._used)), math.nan)
-        if self._bank is None:
-            self._bank = Bank(self._engine.configured(bounds=False), self._gains, {})
-        slopes = self._bank.run(row.samples)[-1]
-        batch = self._bank.batch
-        return np.where(batch is not None and batch.valid[-1], slopes, math.nan)
+        else:
+            if self._bank is None:
+                self._bank = Bank(self._engine.configured(bounds=False), known, {})
+            found = self._bank.run(row.samples)[-1]
+            batch = self._bank.batch
+            slopes = np.where(batch is not None and batch.valid[-1], found, math.nan)
+        return slopes[: len(self._gains)], slopes[len(self._gains) :]
 
     def _least(self, noise: Array | float) -> Array:
         """What is taken for the noise of residuals at least, where rows show so much.
@@ -345,6 +387,7 @@ class Learning:
         self._learned[k] |= whole
         unknown, self._wanted[k] = bool(self._wanted[k]), False
         self.unsure[k] = False
+        self._forgotten.pop(k, None)
         often = math.ceil(_MORE * (self._counts[k] - held))
         self._due[k] = _MOST + 1 if self._approximate[k] else often
         left = np.where(np.isfinite(values), beyond[:, k], math.nan)
@@ -420,6 +463,19 @@ class _Healthy(NamedTuple):
     average: Array
     tilt: Array
     settings: list[_Settings]
+
+
+class _Known(NamedTuple):
+    """What was known of the noise of a residual, as `Learning` keeps it."""
+
+    limits: Array
+    sigma: dict[_Settings, float]
+    learned: _Settings
+    highest: Array
+    rows: int
+    due: int
+    unsure: bool
+    away: Away
 
 
 def _off(values: Array, owed: float) -> bool:

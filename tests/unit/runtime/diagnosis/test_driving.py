@@ -73,6 +73,23 @@ def test_a_machine_that_idled_is_in_alarm_less_than_once_an_hour() -> None:
     assert sum(v.event == "fault" for v in said) <= 4
 
 
+@pytest.mark.parametrize("added", [0.5, 3.0, -3.0])
+@pytest.mark.parametrize("seed", range(3))
+def test_an_input_that_is_read_wrongly_is_no_motion(seed: int, added: float) -> None:
+    """The machine idles on, and the zero of its flow meter jumps far beyond what it ever told."""
+    samples = _samples(seed, idle=2400)
+    samples[1500:, 0] += added
+    said = _watched(_machine(), samples)
+    (fault,) = [v for v in said if v.event == "fault"]
+    assert fault.time > 1500.0 and fault.since is not None
+    assert abs(fault.since - 1500.0) <= 30.0
+    told = [{c.fault: c for c in v.candidates} for v in said if v.candidates]
+    # at rest a resistance that is lower looks the same; flow that is not there is told by its sign
+    assert told and all(own["q"].probability > 0.4 for own in told)
+    flow = [own["q"].size for own in told if own["q"].unit == "m^3/s"]
+    assert flow and flow[-1] == pytest.approx(-added, rel=0.1)
+
+
 def test_a_fault_of_a_machine_that_works_is_seen() -> None:
     said = _watched(_machine(), _samples(1, weak=0.6, fault=1500))
     (fault,) = [v.time for v in said if v.event == "fault"]
