@@ -142,6 +142,8 @@ class Diagnosis:
                 self._status.relearning(float(part.time[0]), fresh, out)
             line = part.bound + self._levels.beyond(self._limits)
             line += self._offsets.room(part, line, self._history)
+            if self._learning is not None:
+                line[:, self._learning.settling] = math.nan
             line[~np.isfinite(line)] = math.nan
             self._last.append(Batch(part.value, part.valid, line))
             for k, fresh in self._detection.samples(part, line):
@@ -175,6 +177,8 @@ class Diagnosis:
             value = np.where(valid, value - self._limits[:, 4], 0.0)
             self._status.warm_up(time[own], valid, self._limits[:, 0], self._origins, out)
             doubt = doubt + self._levels.unsure
+            if self._learning is not None:
+                doubt = doubt + self._learning.room(samples[own])
             bound = np.where(valid, bound + slack(self._tolerated, slopes) + doubt, 0.0)
             yield Part(time[own], samples[own], value, valid, bound, doubt, slopes)
 
@@ -235,10 +239,12 @@ class Diagnosis:
         """What a row tells."""
         self._checked(row, out)
         if self._learning is not None:
+            settling = self._learning.settling
             fresh = self._learn(row, healthy=not self._detection.alarmed)
             self._status.learned(row.time, fresh, self._learning, out)
             if self._learning.over:
                 self._learning = None
+            row = row._replace(valid=row.valid & ~settling)
         unsure = False if self._learning is None else self._learning.unsure
         self._levels.ahead(self._detection.alarmed)
         own = self._innovation(row, unsure)

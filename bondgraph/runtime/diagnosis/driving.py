@@ -9,11 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
 _WIDER = 2.0  # times the range of an input that noise is known for
+_FASTER = 1.2  # times how fast it was; so far above what steps have shown a limit stays, too
 _LEFT_OUT = 0.05  # of what an input adds to a residual: about what a model is wrong by
+_SETTLES = 2  # rows in which a step of an input shows: its own, and one behind it
 _PART = 0.5  # of what an input adds, which no model is wrong by that anybody watches with
 
 
@@ -48,56 +51,137 @@ class Driving:
 
     What a model leaves out grows with the motion, and inputs tell the motion that is wanted; a
     sensor may be what is wrong. `reads` says which residual reads which input, (inputs,
-    residuals).
+    residuals), `pace` how many samples a time constant of the filter has, and `every` how many a
+    row.
+
+    A lag that the model leaves out shows in how fast inputs are, not in how far they go: in how far
+    each goes within a time constant. Behind a step that is faster than ever residuals are
+    `settling`, for two rows. Where they come back, they have shown what the machine does behind
+    steps, and have `room` for it from then on, in proportion.
 
     An input that is measured may be read wrongly. Then the residual stays away by all that this
     adds to it, and nothing has moved but a reading.
     """
 
-    def __init__(self, at: Sequence[int], reads: Mask) -> None:
-        self._at, self._reads = list(at), reads
-        self._range = _nothing(reads.shape)  # of each input in rows that counted for a residual
-        self._means = _nothing(reads.shape)  # of the means of its rows, as slow as the filter is
-        self._terms = _nothing(reads.shape)  # of what it adds to that residual
-        self._effect = np.full(reads.shape, math.inf)  # of a unit of the input on the residual
+    def __init__(self, at: Sequence[int], reads: Mask, pace: float, every: int) -> None:
+        self._at = list(at)
+        self._keep, self._holds = math.exp(-1.0 / pace), math.exp(-1.0 / every)
+        self._reads = np.vstack([reads, reads])  # inputs, and how fast they are
+        shape = self._reads.shape
+        self._range = _nothing(shape)  # of each input in rows that counted for a residual
+        self._means = _nothing(shape)  # of the means of its rows, as slow as the filter is
+        self._terms = _nothing(shape)  # of what it adds to that residual
+        self._effect = np.full(shape, math.inf)  # of a unit of the input on the residual
+        self._lags = np.zeros(reads.shape)  # room of the residual for a unit that an input steps by
         self.restart()
 
     def __bool__(self) -> bool:
         return bool(self._at)
 
     def restart(self) -> None:
+        """The residuals begin anew."""
+        self._slow: Array | None = None  # inputs behind a filter of first order
+        self._steps = np.zeros((1, len(self._at)))  # how far inputs have stepped lately
+        self._settles = np.zeros(self._reads.shape[1], dtype=int)  # rows until they are judged
+        self._fast = np.zeros(self._lags.shape, dtype=bool)  # what they settle behind
+        self._shown = np.zeros(self._lags.shape)  # how far they were for a unit of that
+        self._most = np.zeros(len(self._settles))  # how far at all
+        self._begin()
+
+    @property
+    def settling(self) -> Mask:
+        """Which residuals are not judged, as they show an input that is faster than ever."""
+        return self._settles > 0
+
+    def _begin(self) -> None:
         """A row begins."""
-        self._row = _nothing((len(self._at), 1))
+        self._row = _nothing((2 * len(self._at), 1))
 
-    def anew(self, samples: Array, limit: Array) -> Mask:
-        """Which residuals are driven as never before with further (n, signals) samples of a row.
+    def _moved(self, samples: Array) -> Array:
+        """The inputs, and how far each is from where it was about a time constant ago.
 
-        That is where an input that they read goes over twice the range that it had, and a twentieth
-        of what this adds to them is above their `limit`.
+        (n, twice as many). A slow drift goes no way in that time, however far it comes; a step goes
+        all of its height. Noise of a measured input is smoothed. Without a value an input stays.
         """
+        from scipy.signal import lfilter
+
         own = np.where(np.isfinite(samples[:, self._at]), samples[:, self._at], math.nan)
+        slow = own[0] if self._slow is None else self._slow
+        slow = np.where(np.isfinite(slow), slow, own[0])
+        known = np.where(np.isfinite(own), np.arange(len(own))[:, None], -1)
+        last = np.maximum.accumulate(known, axis=0)
+        held = np.where(last >= 0, np.take_along_axis(own, np.maximum(last, 0), axis=0), slow)
+        share, start = 1.0 - self._keep, self._keep * slow[None]
+        smooth, _ = lfilter([share], [1.0, -self._keep], held, axis=0, zi=start)
+        self._slow = smooth[-1]
+        return np.hstack([own, own - smooth])
+
+    def room(self, samples: Array) -> Array:
+        """What a lag may do to residuals, (n, residuals), at further (n, signals) of a row."""
+        own = self._moved(samples)
         for table, most in ((self._row[0], np.fmin), (self._row[1], np.fmax)):
             table[:] = most(table, most.reduce(own)[:, None])
+        faded = self._holds ** np.arange(1.0, len(own) + 1.0)[:, None]
+        steps = np.maximum.accumulate(np.abs(np.nan_to_num(own[:, len(self._at) :])) / faded)
+        self._steps = faded * np.maximum(steps, self._steps[-1])
+        return np.asarray(self._steps @ self._lags)
+
+    def anew(self, limit: Array, sure: Mask) -> Mask:
+        """Which residuals are driven as never before with the samples of the row so far.
+
+        That is where an input that they read goes over twice the range that it had, and a twentieth
+        of what this adds to them is above their `limit`. Where one steps as never before, those
+        that are `sure` begin to settle.
+        """
         before = self._range[1] - self._range[0]
         now = np.fmax(self._range[1], self._row[1]) - np.fmin(self._range[0], self._row[0])
+        wider = np.repeat([_WIDER, _FASTER], len(self._at))[:, None]
+        share = np.repeat([_LEFT_OUT, 1.0], len(self._at))[:, None]  # for a while a lag is all
         with np.errstate(invalid="ignore"):
-            strange = self._reads & (_LEFT_OUT * self._effect * now > limit)
-        strange &= (now > _WIDER * before) & (before >= 0.0)
-        return np.asarray(strange.any(axis=0))
+            strange = self._reads & (share * self._effect * now > limit)
+        strange &= (now > wider * before) & (before >= 0.0)
+        further, faster = strange.reshape(2, len(self._at), -1)
+        self._fast |= faster & sure
+        self._settles[(faster & sure).any(axis=0)] = _SETTLES
+        return np.asarray(further.any(axis=0))
+
+    def show(self, part: Part, limit: Array) -> None:
+        """How residuals that settle show a step, where that is above the `limit` of their noise."""
+        if not self.settling.any():
+            return
+        size = np.where(part.valid & self.settling, np.abs(part.value), 0.0)
+        size *= size > limit
+        self._most = np.maximum(self._most, size.max(axis=0))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            own = np.where(self._fast, size[:, None, :] / self._steps[:, :, None], 0.0)
+        self._shown = np.fmax(self._shown, own.max(axis=0))
+
+    def _settled(self, row: Row, valid: Mask, limit: Array) -> None:
+        """A row is over, of those that are `valid`; who has come back in it has shown a lag."""
+        size, lag = np.abs(row.value), (self._settles == 1) & np.isfinite(self._shown).all(axis=0)
+        lag &= valid & (size <= row.bound + limit) & (size <= np.maximum(limit, _PART * self._most))
+        self._lags = np.maximum(self._lags, np.where(lag, _FASTER * self._shown, 0.0))
+        self._settles = np.maximum(self._settles - 1, 0)
+        self._fast &= self.settling
+        self._shown *= self.settling
+        self._most *= self.settling
 
     def away(self, k: int, stood: float) -> Away:
         """Residual `k` is driven as never before; it `stood` there so far."""
-        return Away(self._at, self._range[:, :, k].copy(), self._reads[:, k], stood)
+        own = slice(len(self._at))
+        return Away(self._at, self._range[:, own, k].copy(), self._reads[own, k], stood)
 
-    def learned(self, samples: Array, valid: Mask, added: Array) -> None:
-        """A row (n, signals) is over that counts for the residuals which are `valid`.
+    def learned(self, row: Row, valid: Mask, added: Array, limit: Array) -> None:
+        """A row is over that counts for residuals which are `valid`; `limit` is of their noise.
 
         `added` is what the inputs add to them, (inputs, residuals), NaN where nobody knows.
         """
+        self._settled(row, valid, limit)
         if not valid.any():
-            self.restart()
+            self._begin()
             return
-        mean = samples[:, self._at].mean(axis=0)[:, None]
+        mean = np.tile(row.samples[:, self._at].mean(axis=0)[:, None], (2, 1))
+        added = np.vstack([added, added])  # what a unit does is the same, however fast it came
         for table, (low, high) in (
             (self._range, self._row), (self._means, (mean, mean)), (self._terms, (added, added))
         ):  # fmt: skip
@@ -107,17 +191,19 @@ class Driving:
             with np.errstate(divide="ignore", invalid="ignore"):
                 unit = np.subtract(*self._terms[::-1]) / np.subtract(*self._means[::-1])
             self._effect = np.where(unit >= 0.0, unit, math.inf)
-        self.restart()
+        self._begin()
 
     def state(self) -> dict[str, Any]:
         """All that `resume` needs, as plain JSON."""
-        return {"range": numbers(self._range), "effect": numbers(self._effect)}
+        tables = {"range": self._range, "effect": self._effect, "lags": self._lags}
+        return {name: numbers(table) for name, table in tables.items()}
 
     def resume(self, state: Mapping[str, Any]) -> None:
         """Go on from a state; raises KeyError, TypeError or ValueError for one of another kind."""
         self._range = array(state["range"], self._range.shape)
         self._range[1][np.isinf(self._range[0])] = -math.inf
         self._effect = array(state["effect"], self._effect.shape)
+        self._lags = array(state["lags"], self._lags.shape)
 
 
 def _nothing(shape: tuple[int, ...]) -> Array:

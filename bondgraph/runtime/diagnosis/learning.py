@@ -104,7 +104,8 @@ class Learning:
         self._forgotten: dict[int, _Known] = {}  # for a motion that may be none
         reads = [[path in own for own in sees] for path in paths]
         reading = np.array(reads, dtype=bool).reshape(len(paths), len(used))
-        self._driving = Driving([place[path] for path in paths], reading)
+        pace, apart = 1.0 / (engine.bandwidth * engine.sample_time), rows_apart(engine)
+        self._driving = Driving([place[path] for path in paths], reading, pace, apart)
         self._approximate = np.array([n.approximate for n in natures], dtype=bool)
         self._drifts = np.array([n.drifts for n in natures], dtype=bool)
         self._stays = self._approximate | self._drifts
@@ -195,8 +196,11 @@ class Learning:
             fresh[k] = not now <= self._met[k]
             self._met[k] |= now
         if self._driving:
-            anew = self._driving.anew(part.samples, self.limits[:, 2] * self.limits[:, 0])
-            for k in np.flatnonzero(anew & healthy & ~self._wanted & ~self.hopeless).tolist():
+            limit = self.limits[:, 2] * self.limits[:, 0]
+            sure = healthy & ~self._wanted & ~self.hopeless
+            anew = self._driving.anew(limit, sure)
+            self._driving.show(part, limit)
+            for k in np.flatnonzero(anew & sure).tolist():
                 self._forget(k)
                 fresh[k] = not self._covered[k]
         return fresh
@@ -216,6 +220,15 @@ class Learning:
             self.unsure[k] = True
         else:
             self._wanted[k], self.limits[k, 0] = True, math.inf
+
+    @property
+    def settling(self) -> Mask:
+        """Which residuals are not judged, as they show an input that is faster than ever."""
+        return self._driving.settling
+
+    def room(self, samples: Array) -> Array:
+        """See `Driving.room`."""
+        return self._driving.room(samples) if self._driving else np.zeros((1, len(self._used)))
 
     def _misread(self, samples: Array, value: Array, unit: Array) -> Mask:
         """Which residuals have no noise of a motion in most of the rows that it is learned from.
@@ -260,9 +273,12 @@ class Learning:
         """
         valid, slopes = row.valid & healthy, row.slopes[self._values]
         added, unit = self._terms(row)
+        settling = self.settling
+        limit = self.limits[:, 2] * self.limits[:, 0]
+        self._driving.learned(row, valid, added[self._inputs], limit)
+        valid &= ~settling
         self._added[0] = np.fmin(self._added[0], np.where(valid, added, math.nan))
         self._added[1] = np.fmax(self._added[1], np.where(valid, added, math.nan))
-        self._driving.learned(row.samples, valid, added[self._inputs])
         first = np.where(valid & self._wanted, self._peak, -math.inf)
         self._highest = np.maximum(self._highest, first)
         settings = [now | before for now, before in zip(self._now, self._before, strict=True)]
