@@ -163,8 +163,8 @@ class Driving:
         self._lags = np.maximum(self._lags, np.where(lag, _FASTER * self._shown, 0.0))
         self._settles = np.maximum(self._settles - 1, 0)
         self._fast &= self.settling
-        self._shown *= self.settling
-        self._most *= self.settling
+        self._shown = np.where(self.settling, self._shown, 0.0)
+        self._most = np.where(self.settling, self._most, 0.0)
 
     def away(self, k: int, stood: float) -> Away:
         """Residual `k` is driven as never before; it `stood` there so far."""
