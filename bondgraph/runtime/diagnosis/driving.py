@@ -16,7 +16,7 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 _WIDER = 2.0  # times the range of an input that noise is known for
 _FASTER = 1.2  # times how fast it was; so far above what steps have shown a limit stays, too
 _LEFT_OUT = 0.05  # of what an input adds to a residual: about what a model is wrong by
-_SETTLES = 2  # rows in which a step of an input shows: its own, and one behind it
+SETTLES = 2  # rows in which a step of an input shows: its own, and one behind it
 _PART = 0.5  # of what an input adds, which no model is wrong by that anybody watches with
 
 
@@ -93,6 +93,11 @@ class Driving:
         """Which residuals are not judged, as they show an input that is faster than ever."""
         return self._settles > 0
 
+    @property
+    def unsettled(self) -> Array:
+        """How many of the last rows nobody knows of whether they show a lag, of each residual."""
+        return np.where(self.settling, SETTLES - self._settles, 0)
+
     def _begin(self) -> None:
         """A row begins."""
         self._row = _nothing((2 * len(self._at), 1))
@@ -142,7 +147,7 @@ class Driving:
         strange &= (now > wider * before) & (before >= 0.0)
         further, faster = strange.reshape(2, len(self._at), -1)
         self._fast |= faster & sure
-        self._settles[(faster & sure).any(axis=0)] = _SETTLES
+        self._settles[(faster & sure).any(axis=0)] = SETTLES
         return np.asarray(further.any(axis=0))
 
     def show(self, part: Part, limit: Array) -> None:
@@ -156,30 +161,37 @@ class Driving:
             own = np.where(self._fast, size[:, None, :] / self._steps[:, :, None], 0.0)
         self._shown = np.fmax(self._shown, own.max(axis=0))
 
-    def _settled(self, row: Row, valid: Mask, limit: Array) -> None:
-        """A row is over, of those that are `valid`; who has come back in it has shown a lag."""
-        size, lag = np.abs(row.value), (self._settles == 1) & np.isfinite(self._shown).all(axis=0)
-        lag &= valid & (size <= row.bound + limit) & (size <= np.maximum(limit, _PART * self._most))
+    def _settled(self, row: Row, valid: Mask, limit: Array) -> Mask:
+        """A row is over, of those that are `valid`; who has come back in it has shown a lag.
+
+        Returns who should have, and is above its limits.
+        """
+        size, over = np.abs(row.value), self._settles == 1
+        away = size > row.bound + limit
+        lag = over & valid & ~away & (size <= np.maximum(limit, _PART * self._most))
+        lag &= np.isfinite(self._shown).all(axis=0)
         self._lags = np.maximum(self._lags, np.where(lag, _FASTER * self._shown, 0.0))
         self._settles = np.maximum(self._settles - 1, 0)
         self._fast &= self.settling
         self._shown = np.where(self.settling, self._shown, 0.0)
         self._most = np.where(self.settling, self._most, 0.0)
+        return np.asarray(over & away)
 
     def away(self, k: int, stood: float) -> Away:
         """Residual `k` is driven as never before; it `stood` there so far."""
         own = slice(len(self._at))
         return Away(self._at, self._range[:, own, k].copy(), self._reads[own, k], stood)
 
-    def learned(self, row: Row, valid: Mask, added: Array, limit: Array) -> None:
+    def learned(self, row: Row, valid: Mask, added: Array, limit: Array) -> Mask:
         """A row is over that counts for residuals which are `valid`; `limit` is of their noise.
 
-        `added` is what the inputs add to them, (inputs, residuals), NaN where nobody knows.
+        `added` is what the inputs add to them, (inputs, residuals), NaN where nobody knows. Returns
+        who is above its limits still, once the rows behind a step are over.
         """
-        self._settled(row, valid, limit)
+        stayed = self._settled(row, valid, limit)
         if not valid.any():
             self._begin()
-            return
+            return stayed
         mean = np.tile(row.samples[:, self._at].mean(axis=0)[:, None], (2, 1))
         added = np.vstack([added, added])  # what a unit does is the same, however fast it came
         for table, (low, high) in (
@@ -192,6 +204,7 @@ class Driving:
                 unit = np.subtract(*self._terms[::-1]) / np.subtract(*self._means[::-1])
             self._effect = np.where(unit >= 0.0, unit, math.inf)
         self._begin()
+        return stayed
 
     def state(self) -> dict[str, Any]:
         """All that `resume` needs, as plain JSON."""

@@ -8,8 +8,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
-from bondgraph.runtime.diagnosis.driving import Away, Driving
+from bondgraph.runtime.diagnosis.driving import SETTLES, Away, Driving
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.history import within_tolerance
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
@@ -212,7 +213,7 @@ class Learning:
             int(self._counts[k]), int(self._due[k]), bool(self.unsure[k]),
             self._driving.away(k, float(self.limits[k, 4])),
         )  # fmt: skip
-        self._lose(k)
+        self._lost(np.where(np.arange(len(self._wanted)) == k, _MOST, 0))
         self._counts[k], self._due[k] = 0, FIRST
         self._sigma[k], self._learned[k] = {}, frozenset()
         self._highest[:, k] = -math.inf
@@ -248,21 +249,19 @@ class Learning:
     def _recall(self, k: int) -> None:
         """What was forgotten of a residual holds."""
         old = self._forgotten.pop(k)
-        self._lose(k)
+        self._lost(np.where(np.arange(len(self._wanted)) == k, _MOST, 0))
         self.limits[k], self._sigma[k], self._learned[k] = old.limits, old.sigma, old.learned
         self._highest[:, k], self._counts[k], self._due[k] = old.highest, old.rows, old.due
         self.unsure[k], self._wanted[k] = old.unsure, False
 
-    def _lose(self, k: int) -> None:
-        """The rows of a residual so far count no longer."""
-        for row in self._rows:
-            row.value[k] = row.average[k] = math.nan
-
     def alarm(self, held: Array) -> None:
         """Something is wrong, and may have been for some rows, as many as are `held` or more."""
+        self._lost(np.maximum(held, LATE))
+
+    def _lost(self, last: npt.NDArray[np.intp]) -> None:
+        """So many of the last rows count no longer, of each residual."""
         for ago, row in enumerate(reversed(self._rows)):
-            row.value[np.maximum(held, LATE) > ago] = math.nan
-            row.average[np.maximum(held, LATE) > ago] = math.nan
+            row.value[last > ago] = row.average[last > ago] = math.nan
 
     def row(self, row: Row, healthy: bool, held: Array) -> Mask:
         """One row more, which counts if the machine is `healthy`.
@@ -273,10 +272,11 @@ class Learning:
         """
         valid, slopes = row.valid & healthy, row.slopes[self._values]
         added, unit = self._terms(row)
-        settling = self.settling
         limit = self.limits[:, 2] * self.limits[:, 0]
-        self._driving.learned(row, valid, added[self._inputs], limit)
-        valid &= ~settling
+        stayed = self._driving.learned(row, valid, added[self._inputs], limit)
+        held = np.maximum(held, self._driving.unsettled)
+        self._lost(np.where(stayed, SETTLES - 1, 0))
+        valid &= ~stayed
         self._added[0] = np.fmin(self._added[0], np.where(valid, added, math.nan))
         self._added[1] = np.fmax(self._added[1], np.where(valid, added, math.nan))
         first = np.where(valid & self._wanted, self._peak, -math.inf)
