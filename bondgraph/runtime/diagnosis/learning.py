@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Mapping, Sequence
+from itertools import islice
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -260,7 +261,7 @@ class Learning:
 
     def _lost(self, last: npt.NDArray[np.intp]) -> None:
         """So many of the last rows count no longer, of each residual."""
-        for ago, row in enumerate(reversed(self._rows)):
+        for ago, row in enumerate(islice(reversed(self._rows), int(last.max(initial=0)))):
             row.value[last > ago] = row.average[last > ago] = math.nan
 
     def row(self, row: Row, healthy: bool, held: Array) -> Mask:
