@@ -74,6 +74,18 @@ class History:
         prior[list(numbers)] = deviations
         self.prior = prior
 
+    def drifted(self, numbers: Sequence[int]) -> History:
+        """The same a while later: some parameters have drifted as those of a healthy machine may.
+
+        By a share of their tolerances, the one that sums leave room for; none out of its tolerance.
+        """
+        own = list(numbers)
+        first = np.eye(len(own), len(own) + self.root.shape[1]) / COVERED
+        moved = np.vstack([first, np.hstack([-self.root[:, own], self.root])])
+        found = History(self.prior)
+        found.root = triangle(moved)[len(own) :, len(own) :]
+        return found
+
     def last(self, count: int) -> tuple[Array, Array]:
         """By how much the last parameters are off, most probably, and the covariance of that."""
         start = len(self.prior) - count

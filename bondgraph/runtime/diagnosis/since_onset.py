@@ -193,8 +193,9 @@ class SinceOnset:
         """How well each fault explains the rows and how well two at once do, to be compared.
 
         Two of the `singles`, each with its onset and size. How a fault sets in is not known:
-        whether one is enough does not hang on that. But which two it is, and how large they are, is
-        known best with it: some show only then.
+        whether one is enough does not hang on that, nor on what parameters of a healthy machine
+        may drift by meanwhile. But which two it is, and how large they are, is known best with it:
+        some show only then.
         """
         rows, (others,) = self._weighed([self._others])
         whole, case = Evidence(rows, history), Case(self._all, rows.slopes, others)
@@ -203,7 +204,8 @@ class SinceOnset:
         bent = [self._both(whole, rows, two) for two in found[:near]]
         for one in (rows, *others.values()):
             one.weight[:] = 1.0 / (inverse(one.weight) + _early(one.value, 1.0))
-        evidence = Evidence(rows, history)
+        drifting = [k for k, one in enumerate(self._tolerated) if one.kind == "value"]
+        evidence = Evidence(rows, history.drifted(drifting))
         later = [two for own in bent for two in evidence.both(own.case, [(0, 1)])]
         later += evidence.both(case, [self._numbers(two) for two in found[near:]])
         found[:near] = [own.two for own in bent]

@@ -158,6 +158,33 @@ def test_what_is_expected_of_this_machine_is_the_mean_of_what_its_parameters_may
     assert found.bound == pytest.approx([*wide[:2], 6.0], rel=1e-9)
 
 
+def test_what_was_known_of_a_parameter_is_known_less_well_once_it_may_have_drifted() -> None:
+    draw = np.random.default_rng(8)
+    spread, count = np.array([0.5, 2.0, 1.5]), 9
+    slopes = draw.normal(size=(count, 3, 2))
+    value, weight = draw.normal(size=(count, 2)), draw.uniform(0.5, 2.0, size=(count, 2))
+    history = History(spread)
+    for k in range(count):
+        history.add(value[k], weight[k], slopes[k], 1.0)
+    # the estimate by these rows alone; two parameters then go by a tenth of what they may be off
+    flat = slopes.transpose(0, 2, 1).reshape(-1, 3)
+    rows = np.linalg.inv(flat.T @ (flat * weight.reshape(-1, 1)))
+    best = rows @ flat.T @ (weight * value).ravel()
+    later = np.linalg.inv(rows + np.diag([0.0, 0.2, 0.15]) ** 2)
+    # and are within their tolerances, which are known as before
+    known = np.linalg.inv(later + np.diag(spread**-2.0))
+    drifted = history.drifted([1, 2])
+    mean, variance = drifted.expected(np.eye(3))
+    assert mean == pytest.approx(known @ later @ best, rel=1e-9)
+    assert variance == pytest.approx(np.diag(known), rel=1e-9)
+    assert drifted.prior.tolist() == spread.tolist()
+    # of nothing more is known than before
+    for other in (history.drifted([]), History(spread).drifted([1, 2])):
+        expected = history if other.root.any() else History(spread)
+        for a, b in zip(other.expected(np.eye(3)), expected.expected(np.eye(3)), strict=True):
+            assert a == pytest.approx(b, rel=1e-9, abs=1e-12)
+
+
 def test_a_fault_that_moves_nothing_that_is_off_explains_nothing() -> None:
     # An encoder at constant speed: whether it misses a share of its counts or so many a second is
     # the same, and would move the residual 10^8 times more than its noise, which is all there is.
