@@ -17,13 +17,13 @@ _WIDER = 2.0  # times the range of an input that noise is known for
 _FASTER = 1.2  # times how fast it was; so far above what steps have shown a limit stays, too
 _LEFT_OUT = 0.05  # of what an input adds to a residual: about what a model is wrong by
 SETTLES = 2  # rows in which a step of an input shows: its own, and one behind it
-_PART = 0.5  # of what an input adds, which no model is wrong by that anybody watches with
+_PART = 0.5  # of what an input adds: no model that is watched with is so wrong, a lag passes below
 
 
-class Away:
-    """A residual which `stood` somewhere with inputs in their ranges (2, inputs), and rows since.
+class Misread:
+    """Rows since a residual `stood` somewhere with inputs in their ranges (2, inputs).
 
-    A row is misread where the residual is away by what one input adds to it from where this can
+    An input is read wrongly in those where the residual is away by what it adds from where it can
     have been: by all of what it is beyond its range, and by this range at most. A model that is
     wrong is so by a part of what inputs add.
     """
@@ -31,7 +31,7 @@ class Away:
     def __init__(self, at: Sequence[int], ranges: Array, reads: Mask, stood: float) -> None:
         self._at, self._reads, self._stood = at, reads, stood
         self._low, self._high = ranges
-        self.misread = 0  #: rows
+        self.rows = 0  #: in which an input is read wrongly
 
     def row(self, samples: Array, unit: Array, value: float) -> None:
         """A row more, (n, signals); what a unit of each input adds, and the residual behind it."""
@@ -43,7 +43,7 @@ class Away:
         least, most = (np.where(known, unit * side, 0.0) for side in (beyond, most))
         moved = value - self._stood
         fits = (np.sign(least) == np.sign(moved)) & (abs(moved) < (1.0 + _PART) * np.abs(most))
-        self.misread += bool(fits.any() and _PART * np.abs(least).sum() < abs(moved))
+        self.rows += bool(fits.any() and _PART * np.abs(least).sum() < abs(moved))
 
 
 class Driving:
@@ -177,10 +177,10 @@ class Driving:
         self._most = np.where(self.settling, self._most, 0.0)
         return np.asarray(over & away)
 
-    def away(self, k: int, stood: float) -> Away:
+    def misread(self, k: int, stood: float) -> Misread:
         """Residual `k` is driven as never before; it `stood` there so far."""
         own = slice(len(self._at))
-        return Away(self._at, self._range[:, own, k].copy(), self._reads[own, k], stood)
+        return Misread(self._at, self._range[:, own, k].copy(), self._reads[own, k], stood)
 
     def learned(self, row: Row, valid: Mask, added: Array, limit: Array) -> Mask:
         """A row is over that counts for residuals which are `valid`; `limit` is of their noise.

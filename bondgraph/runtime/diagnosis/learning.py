@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bondgraph.runtime.diagnosis.driving import SETTLES, Away, Driving
+from bondgraph.runtime.diagnosis.driving import SETTLES, Driving, Misread
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.history import within_tolerance
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
@@ -212,7 +212,7 @@ class Learning:
         self._forgotten[k] = _Known(
             self.limits[k].copy(), self._sigma[k], self._learned[k], self._highest[:, k].copy(),
             int(self._counts[k]), int(self._due[k]), bool(self.unsure[k]),
-            self._driving.away(k, float(self.limits[k, 4])),
+            self._driving.misread(k, float(self.limits[k, 4])),
         )  # fmt: skip
         self._lost(np.where(np.arange(len(self._wanted)) == k, _MOST, 0))
         self._counts[k], self._due[k] = 0, FIRST
@@ -241,8 +241,8 @@ class Learning:
         found = np.zeros(len(value), dtype=bool)
         for k, old in self._forgotten.items():
             if np.isfinite(value[k]):
-                old.away.row(samples, unit[:, k], float(value[k]))
-            found[k] = 2 * old.away.misread > FIRST
+                old.misread.row(samples, unit[:, k], float(value[k]))
+            found[k] = 2 * old.misread.rows > FIRST
         for k in np.flatnonzero(found).tolist():
             self._recall(k)
         return found
@@ -492,7 +492,7 @@ class _Known(NamedTuple):
     rows: int
     due: int
     unsure: bool
-    away: Away
+    misread: Misread
 
 
 def _off(values: Array, owed: float) -> bool:

@@ -135,18 +135,26 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
         assert evidence == pytest.approx(ratio, rel=1e-9, abs=1e-9)
 
 
-def test_what_is_expected_of_this_machine_is_the_mean_of_what_its_parameters_may_be() -> None:
-    draw = np.random.default_rng(5)
-    spread, count = np.array([0.5, 2.0]), 7
-    slopes = draw.normal(size=(count, 2, 3))
-    value, weight = draw.normal(size=(count, 3)), draw.uniform(0.5, 2.0, size=(count, 3))
+def _equations(
+    draw: np.random.Generator, spread: np.ndarray, count: int, residuals: int
+) -> tuple[History, np.ndarray, np.ndarray]:
+    """A history of random rows, and its normal equations: matrix and right side, no prior."""
+    slopes = draw.normal(size=(count, len(spread), residuals))
+    size = count, residuals
+    value, weight = draw.normal(size=size), draw.uniform(0.5, 2.0, size=size)
     history = History(spread)
     for k in range(count):
         history.add(value[k], weight[k], slopes[k], 1.0)
-    # normal equations of the parameters given all rows, with their prior
-    flat = slopes.transpose(0, 2, 1).reshape(-1, 2)
-    known = np.linalg.inv(flat.T @ (flat * weight.reshape(-1, 1)) + np.diag(spread**-2.0))
-    best = known @ flat.T @ (weight * value).ravel()
+    flat = slopes.transpose(0, 2, 1).reshape(-1, len(spread))
+    return history, flat.T @ (flat * weight.reshape(-1, 1)), flat.T @ (weight * value).ravel()
+
+
+def test_what_is_expected_of_this_machine_is_the_mean_of_what_its_parameters_may_be() -> None:
+    draw = np.random.default_rng(5)
+    spread = np.array([0.5, 2.0])
+    history, matrix, right = _equations(draw, spread, 7, 3)
+    known = np.linalg.inv(matrix + np.diag(spread**-2.0))
+    best = known @ right
     now, bound, doubt = draw.normal(size=(2, 3)), np.array([4.0, 5.0, 6.0]), np.ones(3)
     here = np.array([1.0, -2.0, 3.0])
     row = Row(0.0, here, None, here, np.ones(3, dtype=bool), bound, doubt, now)
@@ -159,17 +167,11 @@ def test_what_is_expected_of_this_machine_is_the_mean_of_what_its_parameters_may
 
 
 def test_what_was_known_of_a_parameter_is_known_less_well_once_it_may_have_drifted() -> None:
-    draw = np.random.default_rng(8)
-    spread, count = np.array([0.5, 2.0, 1.5]), 9
-    slopes = draw.normal(size=(count, 3, 2))
-    value, weight = draw.normal(size=(count, 2)), draw.uniform(0.5, 2.0, size=(count, 2))
-    history = History(spread)
-    for k in range(count):
-        history.add(value[k], weight[k], slopes[k], 1.0)
+    spread = np.array([0.5, 2.0, 1.5])
+    history, matrix, right = _equations(np.random.default_rng(8), spread, 9, 2)
     # the estimate by these rows alone; two parameters then go by a tenth of what they may be off
-    flat = slopes.transpose(0, 2, 1).reshape(-1, 3)
-    rows = np.linalg.inv(flat.T @ (flat * weight.reshape(-1, 1)))
-    best = rows @ flat.T @ (weight * value).ravel()
+    rows = np.linalg.inv(matrix)
+    best = rows @ right
     later = np.linalg.inv(rows + np.diag([0.0, 0.2, 0.15]) ** 2)
     # and are within their tolerances, which are known as before
     known = np.linalg.inv(later + np.diag(spread**-2.0))
