@@ -18,7 +18,7 @@ from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
 from bondgraph.runtime.diagnosis.isolation import Explained, inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
-from bondgraph.runtime.diagnosis.naming import Latched
+from bondgraph.runtime.diagnosis.naming import Latched, loud
 from bondgraph.runtime.diagnosis.noise import COVERED
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
 from bondgraph.runtime.diagnosis.rows import (
@@ -396,10 +396,8 @@ class Diagnosis:
         return [s for s in self._seen_by_all() if self._checks.lately(s)]
 
     def _seen_by_all(self) -> list[str]:
-        """The faults that all residuals see which have fired."""
-        residuals = self._engine.residuals
-        fired = [n for n, own in zip(residuals, self._detection.fired, strict=True) if own]
-        sees = [self._model.sees.get(r, ()) for r in fired]
+        """The faults that all residuals see which have fired by more than loud noise does."""
+        sees = [self._model.sees.get(r, ()) for r in loud(self._detection.levels())]
         return [f for f in self._model.faults if all(f in own for own in sees)]
 
     def _explain(self, row: Row, out: list[Verdict]) -> None:

@@ -64,8 +64,8 @@ def suspects(
     >>> [suspects("abc", sees, {"r1": 2.0, "r3": level}) for level in (2.0, 1.1)]
     [['a', 'b', 'c'], ['a', 'b']]
     """
-    every, loud = list(faults), _loud(fired)
-    return [f for f in every if all(f in sees.get(name, ()) for name in loud)] or every
+    every, most = list(faults), loud(fired)
+    return [f for f in every if all(f in sees.get(name, ()) for name in most)] or every
 
 
 def candidates(
@@ -83,9 +83,9 @@ def candidates(
     are nominal values, `sees` the faults of each residual, `signs` those of what is nominally zero.
     """
     left = [possible(e, faults.get(e.fault), signs.get(e.fault)) for e in found]
-    loud = _loud(fired)
+    most = loud(fired)
     whole = [
-        all(e.fault in sees.get(name, ()) for name in (loud if fits(e) else fired)) for e in left
+        all(e.fault in sees.get(name, ()) for name in (most if fits(e) else fired)) for e in left
     ]
     if not any(good and e.evidence > -math.inf for good, e in zip(whole, left, strict=True)):
         return left
@@ -94,7 +94,7 @@ def candidates(
     ]
 
 
-def _loud(fired: Mapping[str, float]) -> list[str]:
+def loud(fired: Mapping[str, float]) -> list[str]:
     """What has fired by more than `_LARGER` noise does, or all where nothing has."""
     return [name for name, level in fired.items() if level * level > _LARGER] or list(fired)
 

@@ -181,8 +181,9 @@ class SignalChecks:
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
             before = self._range[1] - self._range[0]
             beyond = (span > 2.0 * before) & (span > 0.0)  # as far as all that it did before
-        further = bool((beyond & self._drive & (self._samples >= _ENOUGH)).any())
-        self._driven = 0 if driven or further else self._driven + 1
+        beyond &= self._drive & (self._samples >= _ENOUGH)
+        self._range[:, beyond] = [bottom[beyond], top[beyond]]  # there it has been now
+        self._driven = 0 if driven or beyond.any() else self._driven + 1
         if self._driven < _AFTER:
             found = {n: one for n, one in found.items() if one.kind == "stuck"}
         if healthy and not found:
