@@ -34,6 +34,7 @@ _KEEP = 0.95  # correlation of a fault's change between the ends of a chunk
 _CHUNK = 4  # rows in which the change is taken as a straight line, at least
 _PARTS = 15  # chunks at most
 _SAME = 1e-6  # logarithm of a probability: a smaller difference is rounding
+RARER = math.log(1000.0)  #: how much rarer two faults at once are than one of them
 _LEADS = 8  # faults of which pairs with every other one are looked at
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
 

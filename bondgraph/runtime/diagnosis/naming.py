@@ -9,7 +9,12 @@ from typing import Any
 
 from bondgraph.ir.signature_matrix import DoubleFaults
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, probabilities
+from bondgraph.runtime.diagnosis.isolation import (
+    RARER,
+    Explained,
+    ExplainedPair,
+    probabilities,
+)
 from bondgraph.runtime.diagnosis.rows import CORRELATED
 from bondgraph.runtime.monitoring.verdict import (
     Candidate,
@@ -29,7 +34,6 @@ _EXPLAINS = 3.0  # logarithm of how much more probable a fault has to make what 
 _MOST = 0.7  # share of the misfit that a fault has to take away where nothing fits
 _LEVEL = 1e-3  # probability of what noise may leave over
 _LARGER = 2.0  # times the variance that noise is taken for, that it may have
-_RARER = math.log(1000.0)  # how much rarer two faults at once are than one of them
 _GROWN = 1.5  # times its size that a fault has to have to be told again
 _AGAIN = 5  # rows between an update and the next, twice as many each time
 LONGEST = 320  # rows that anything said again has to wait
@@ -235,7 +239,7 @@ def one_or_two(
     Two at once are rarer, and how a fault sets in and goes on is not known: where a single fault
     fits, two that look like some single one are not asked for.
     """
-    least = max((e.evidence for e in alone), default=-math.inf) + _RARER
+    least = max((e.evidence for e in alone), default=-math.inf) + RARER
     left = [pair for pair in pairs if pair.evidence >= least and fits(pair)]
     if not (one or any(fits(e) for e in alone)):
         return OneOrTwo(False, left)

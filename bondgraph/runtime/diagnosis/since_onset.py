@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from itertools import accumulate
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead
 from bondgraph.runtime.diagnosis.isolation import (
+    RARER,
     Case,
     Evidence,
     Explained,
@@ -18,7 +19,10 @@ from bondgraph.runtime.diagnosis.isolation import (
     Rows,
     inverse,
 )
+from bondgraph.runtime.diagnosis.model_error import SHARE
+from bondgraph.runtime.diagnosis.noise import COVERED
 from bondgraph.runtime.diagnosis.rows import Row, weight
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
 from bondgraph.text.tuples import NamedTuple
@@ -120,6 +124,7 @@ class SinceOnset:
         self._waiting: list[tuple[Row, Array]] = []  # with the noise of each residual
         self._past: list[tuple[Row, Array]] = []
         self._rows: list[Rows] = []
+        self._rooms: list[Array] = []  # of each row: what gives no alarm, and noise
         self._others: dict[int, list[Rows]] = {}  # by the number of what is held
         self._squares = np.zeros(shape)  # sums over the rows, of slopes
         self._unsaid = np.zeros((_GROWS, shape[1]), dtype=bool)
@@ -195,7 +200,7 @@ class SinceOnset:
         Two of the `singles`, each with its onset and size. How a fault sets in is not known:
         whether one is enough does not hang on that, nor on what parameters of a healthy machine
         may drift by meanwhile. But which two it is, and how large they are, is known best with it:
-        some show only then.
+        some show only then. And each of both has to show (see `_showing`).
         """
         rows, (others,) = self._weighed([self._others])
         whole, case = Evidence(rows, history), Case(self._all, rows.slopes, others)
@@ -208,10 +213,32 @@ class SinceOnset:
         evidence = Evidence(rows, history.drifted(drifting))
         later = [two for own in bent for two in evidence.both(own.case, [(0, 1)])]
         later += evidence.both(case, [self._numbers(two) for two in found[near:]])
+        moved = [own.case.slopes for own in bent]
+        moved += [rows.slopes[:, self._numbers(two)] for two in found[near:]]
         found[:near] = [own.two for own in bent]
         found = [again._replace(changes=two.changes, whole=two.whole)
                  for again, two in zip(later, found, strict=True)]  # fmt: skip
+        found = [found[k] for k in self._showing(rows, found, moved)]
         return evidence.explained([case])[0], sorted(found, key=lambda two: -two.whole)
+
+    def _showing(
+        self, rows: Rows, pairs: Sequence[ExplainedPair], moved: Sequence[Array]
+    ) -> Iterator[int]:
+        """Which pairs are two faults: each of both would show by itself, and beside the other one.
+
+        In some residual it makes what was seen a thousand times more probable than a machine with
+        what gives no alarm, and with a law that is wrong by two deviations of what is said of the
+        residual. What is less mends the model, or follows a supply that wanders. `moved` is what
+        one of each does, (rows, 2, residuals); by logarithms as sums of rows have them.
+        """
+        room, sigma = np.array(self._rooms).transpose(1, 0, 2)[:, :, None]
+        room = room + UNKNOWN * SHARE * np.abs(rows.value)[:, None]
+        known = (rows.weight > 0)[:, None] & np.isfinite(sigma)
+        for k, (two, slopes) in enumerate(zip(pairs, moved, strict=True)):
+            out = np.abs(slopes * np.array(two.changes)[:, None]) - room
+            more = np.where(known, np.maximum(out / sigma - 0.5, 0.0), 0.0).sum(axis=0)
+            if (more.max(axis=1) >= RARER).all():
+                yield k
 
     def _numbers(self, two: ExplainedPair) -> tuple[int, int]:
         return self._all.index(two.hypotheses[0]), self._all.index(two.hypotheses[1])
@@ -388,6 +415,7 @@ class SinceOnset:
             for k, others in self._others.items():
                 others += _held(self._instead[k], rows, told, number)[:left]
             self._rows += told[:left]
+            self._rooms += [_room(row, sigma) for row, sigma in rows[:left]]
             self._squares += np.square(slopes[:left]).sum(axis=0)
             self._past += rows[: max(0, BENT - len(self._past))]
 
@@ -502,6 +530,11 @@ def _is_clear(one: Explained) -> bool:
     """Whether a change is large and clear enough for a secant."""
     least = max(_SMALL * one.hypothesis.usual, _CLEAR * one.deviation)
     return least <= abs(one.change) < math.inf
+
+
+def _room(row: Row, sigma: Array) -> Array:
+    """What a residual may be off by without an alarm, and the deviation of its noise."""
+    return np.array([COVERED * (row.bound - row.doubt) + row.doubt, sigma])
 
 
 def _stacked(rows: Sequence[Rows]) -> Rows:
