@@ -83,19 +83,19 @@ def candidates(
 
     Evidence alone is of magnitudes, and where no fault fits well the one that spoils least may
     leave such a residual unexplained. Of a fault that fits only what is loud has to be seen, as in
-    `suspects`. Where no fault is seen by all that have fired, none is ruled out by that. `faults`
+    `suspects`, and of any where no fault is seen by all that have fired. Where none is seen by what
+    is loud, none is ruled out by that. `faults`
     are nominal values, `sees` the faults of each residual, `signs` those of what is nominally zero.
     """
     left = [possible(e, faults.get(e.fault), signs.get(e.fault)) for e in found]
     most = loud(fired)
-    whole = [
-        all(e.fault in sees.get(name, ()) for name in (most if fits(e) else fired)) for e in left
-    ]
-    if not any(good and e.evidence > -math.inf for good, e in zip(whole, left, strict=True)):
-        return left
-    return [
-        e if good else e._replace(evidence=-math.inf) for good, e in zip(whole, left, strict=True)
-    ]
+    for asked in (fired, most):
+        whole = [all(e.fault in sees.get(name, ()) for name in (most if fits(e) else asked))
+                 for e in left]  # fmt: skip
+        if any(good and e.evidence > -math.inf for good, e in zip(whole, left, strict=True)):
+            return [e if good else e._replace(evidence=-math.inf)
+                    for good, e in zip(whole, left, strict=True)]  # fmt: skip
+    return left
 
 
 def loud(fired: Mapping[str, float]) -> list[str]:

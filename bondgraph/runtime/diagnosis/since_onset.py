@@ -21,7 +21,7 @@ from bondgraph.runtime.diagnosis.isolation import (
 )
 from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.noise import COVERED
-from bondgraph.runtime.diagnosis.rows import Row, weight
+from bondgraph.runtime.diagnosis.rows import CORRELATED, Row, weight
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
@@ -229,15 +229,15 @@ class SinceOnset:
         In some residual it makes what was seen a thousand times more probable than a machine with
         what gives no alarm, and with a law that is wrong by two deviations of what is said of the
         residual. What is less mends the model, or follows a supply that wanders. `moved` is what
-        one of each does, (rows, 2, residuals); by logarithms as sums of rows have them.
+        one of each does, (rows, 2, residuals).
         """
         room, sigma = np.array(self._rooms).transpose(1, 0, 2)[:, :, None]
         room = room + UNKNOWN * SHARE * np.abs(rows.value)[:, None]
         known = (rows.weight > 0)[:, None] & np.isfinite(sigma)
         for k, (two, slopes) in enumerate(zip(pairs, moved, strict=True)):
             out = np.abs(slopes * np.array(two.changes)[:, None]) - room
-            more = np.where(known, np.maximum(out / sigma - 0.5, 0.0), 0.0).sum(axis=0)
-            if (more.max(axis=1) >= RARER).all():
+            squares = np.where(known, np.maximum(out / sigma, 0.0), 0.0) ** 2
+            if (squares.sum(axis=0).max(axis=1) >= 2.0 * CORRELATED * RARER).all():
                 yield k
 
     def _numbers(self, two: ExplainedPair) -> tuple[int, int]:

@@ -49,6 +49,12 @@ def test_what_is_above_a_threshold_by_no_more_than_noise_rules_nothing_out_that_
     assert _left(["r1", "r2"], *spoiled, level=1.4) == ["k"]
 
 
+def test_of_faults_that_see_not_all_none_leaves_what_is_loud() -> None:
+    spoiled = [e._replace(left=30.0) for e in (_explained("f", 90.0), _explained("R", 20.0))]
+    assert _left(["r1", "r2"], *spoiled, level=1.4) == ["R"]
+    assert _left(["r1", "r2"], *spoiled, level=1.43) == ["f", "R"]
+
+
 def test_where_no_single_fault_is_evidence_alone_decides() -> None:
     found = [_explained("R", 90.0), _explained("f", 20.0)]
     assert _left(["r1", "r2"], *found) == ["R", "f"]

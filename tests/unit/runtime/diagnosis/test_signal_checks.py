@@ -442,3 +442,16 @@ def _switched(samples: Array, kind: str) -> list[Unusual]:
         for k in range(0, len(samples) - _ROW + 1, _ROW)
         for one in checks.row((k + _ROW - 1) * _STEP, samples[k : k + _ROW], not checks.active)
     ]
+
+
+def test_an_input_that_goes_further_than_ever_hides_spikes_once() -> None:
+    """It stands still for longer than its range is learned, and then steps every 8 s."""
+    draw = np.random.default_rng(1)
+    k = np.arange(10_000)
+    valve = np.where(k < 6000, 0.2, 0.2 + 0.3 * ((k // 800) % 2))
+    flow = np.sin(k / 40.0) + 0.01 * draw.normal(size=len(k))
+    spikes = np.arange(7000, 10_000, 500) + 130
+    flow[spikes] += 0.8
+    told = _fan_looked(np.column_stack([valve, flow]))
+    assert [(one.signal, one.kind) for one in told] == [("P", "spike")] * len(spikes)
+    assert [round(one.since / _STEP) for one in told] == spikes.tolist()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -69,11 +70,18 @@ def _samples(
 
 
 def _watched(
-    seed: int, onsets: dict[str, tuple[float, float]], tolerance: str = "1%", loud: float = 1.0
+    seed: int,
+    onsets: dict[str, tuple[float, float]],
+    tolerance: str = "1%",
+    loud: float = 1.0,
+    read: Callable[[np.ndarray, np.ndarray], None] | None = None,
 ) -> list[Verdict]:
+    """What is told of a line whose samples are `read` so, by their times, behind its faults."""
     c = _line(tolerance)
     engine = c.engine()
     t, samples = _samples(seed, onsets, loud)
+    if read is not None:
+        read(t, samples)
     assert [k.path for k in engine.signals] == ["U", "y1", "y2", "y3", "i"]
     decided = c.diagnosis(engine)
     said = []
@@ -123,6 +131,42 @@ def test_what_is_more_than_a_tolerance_is_a_second_fault() -> None:
     said = _watched(6, {"R1": (60.0, 1.5), "R2": (60.0, 1.25)}, "10%", 0.1)
     last = [v for v in said if v.event == "update"][-1]
     assert set(last.pairs[0].faults) == {"R[1]", "R[2]"}
+
+
+def _supply_less(t: np.ndarray, samples: np.ndarray) -> None:
+    samples[t > 61.0, 0] *= 1.002
+
+
+def _creeping(t: np.ndarray, samples: np.ndarray) -> None:
+    samples[:, 3] += 0.001 * np.maximum(t - 60.0, 0.0)
+
+
+def _standing(t: np.ndarray, samples: np.ndarray) -> None:
+    samples[t >= 72.0, 3] = samples[t >= 72.0, 3][0]
+
+
+def test_what_mends_what_is_said_of_a_large_fault_is_no_second_one() -> None:
+    """Of the only residual that the supply moves: a fiftieth of what the fault does there."""
+    said = _watched(6, {"R1": (60.0, 1.5)}, "1%", 0.3, _supply_less)
+    updates = [v for v in said if v.event == "update"]
+    assert updates and {v.group for v in updates} == {("R[1]", "U")}
+
+
+def test_what_is_small_and_shows_elsewhere_is_a_second_fault() -> None:
+    said = _watched(6, {"R1": (60.0, 1.5)}, "1%", 0.3, _creeping)
+    last = [v for v in said if v.event == "update"][-1]
+    assert set(last.pairs[0].faults) == {"R[1]", "y3"}
+
+
+@pytest.mark.parametrize("less", [1.004, 1.01])
+def test_a_sensor_that_stands_keeps_its_name_beside_a_weak_alarm_of_something_else(
+    less: float,
+) -> None:
+    """A resistance off by its tolerance or less, in a residual that does not read the sensor."""
+    said = _watched(6, {"R1": (60.0, less)}, "1%", 0.3, _standing)
+    assert any(v.event == "fault" and v.time < 72.0 for v in said)
+    updates = [v for v in said if v.event == "update" and v.time > 72.0]
+    assert [v.group for v in updates] == [("y3",)]
 
 
 def test_two_at_once_are_not_accepted_and_that_is_said() -> None:
