@@ -11,7 +11,7 @@ import numpy as np
 
 from bondgraph.ir.residual_limit import NEVER
 from bondgraph.runtime.diagnosis.cusum import Cusum
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, drifting, tolerated
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import (
     Bank,
@@ -337,7 +337,7 @@ def _limits(
                 limit = limit._replace(kappa=max(asked, most))
         held = float(work.held[k]) if work.free[k] else 0.0
         found[engine.residuals[k]] = limit._replace(held=held, apart=float(far[k]))
-    return _higher(found, engine.residuals, logs, work.spread)
+    return _higher(found, engine, work, logs)
 
 
 def _beside_its_level(
@@ -398,14 +398,15 @@ def _beside_their_own(
 
 
 def _higher(
-    found: Mapping[str, Limit], residuals: Sequence[str], logs: Sequence[_Noise], spread: Array
+    found: Mapping[str, Limit], engine: Engine, work: _Work, logs: Sequence[_Noise]
 ) -> dict[str, Limit]:
     """The same above what samples of healthy machines, watched so, and their sums come to."""
+    residuals, values = engine.residuals, drifting(work.tolerated)
     own = np.array(limits(found, residuals), dtype=float)
     cusum, sure = Cusum(len(own), healthy=True), np.ones(len(own), dtype=bool)
     most, goes = np.zeros((2, len(own)))
     for log in logs:
-        history, levels = History(spread), Levels.tuned(own)
+        history, levels = History(work.spread), Levels.tuned(own)
         cusum.restart()
         waiting: deque[Row] = deque()
         mean = own[:, 4].copy()
@@ -421,6 +422,7 @@ def _higher(
             if len(waiting) > HEALTHY:
                 old = waiting.popleft()
                 moved += levels.learn(old.time, *beside(history.innovation(old, sure), own))
+                history = history.drifted(values, rows=1)
                 history.add(*steady(old, weight(old, own[:, 0])))
             mean += moved
             for later in waiting:

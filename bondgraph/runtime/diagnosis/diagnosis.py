@@ -12,7 +12,7 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.doubt import Doubt
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, slack, tolerated
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, drifting, slack, tolerated
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
 from bondgraph.runtime.diagnosis.isolation import Explained, inverse
@@ -312,6 +312,7 @@ class Diagnosis:
             old = self._calm.popleft()
             self._stands(old)
             sound = ~self._offsets.steep(old, self._history)
+            self._history = self._history.drifted(drifting(self._tolerated), rows=1)
             self._history.add(*steady(old, self._weight(old) * sound))
             self._offsets.learned(old, self._history)
             self._origins.learn(self._tolerated, self._history)

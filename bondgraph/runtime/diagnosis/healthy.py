@@ -242,6 +242,11 @@ def tolerated(
     return tuple(found[k] for k in keep), np.array([most[k] for k in keep]) / math.sqrt(3.0)
 
 
+def drifting(known: Sequence[Hypothesis]) -> list[int]:
+    """Which of what is tolerated drifts in a healthy machine: its parameters, and no count."""
+    return [at for at, one in enumerate(known) if one.kind == "value"]
+
+
 def as_it_is(
     known: Sequence[Hypothesis], nominal: Mapping[str, float], history: History
 ) -> dict[str, float]:

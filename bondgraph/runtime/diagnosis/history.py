@@ -14,6 +14,7 @@ from bondgraph.runtime.log import Array, Mask
 
 HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
 _KEPT = 1.0 - 1.0 / 1000.0  # of what is known, with each further row
+_DRIFTS = 100  # rows in which a parameter of a healthy machine drifts by what sums leave for that
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 
@@ -74,13 +75,21 @@ class History:
         prior[list(numbers)] = deviations
         self.prior = prior
 
-    def drifted(self, numbers: Sequence[int]) -> History:
-        """The same a while later: some parameters have drifted as those of a healthy machine may.
+    def drifted(self, numbers: Sequence[int], rows: float = _DRIFTS) -> History:
+        """The same so many rows later: some parameters have drifted as a healthy machine's may.
 
-        By a share of their tolerances, the one that sums leave room for; none out of its tolerance.
+        They walk at random (the prediction of a square-root filter; Bierman, 1977), in a hundred
+        rows by the share of their tolerances that sums leave room for; none out of its tolerance.
+
+        >>> history = History(np.array([3.0]))
+        >>> history.add(np.array([1.0]), np.array([1e6]), np.array([[1.0]]))
+        >>> later = history.drifted([0], rows=25)  # by half of a tenth of 3
+        >>> [round(float(one.expected(np.eye(1))[1][0]) ** 0.5, 3) for one in (history, later)]
+        [0.001, 0.15]
         """
         own = list(numbers)
-        first = np.eye(len(own), len(own) + self.root.shape[1]) / COVERED
+        moves = COVERED * math.sqrt(rows / _DRIFTS)
+        first = np.eye(len(own), len(own) + self.root.shape[1]) / moves
         moved = np.vstack([first, np.hstack([-self.root[:, own], self.root])])
         found = History(self.prior)
         found.root = triangle(moved)[len(own) :, len(own) :]

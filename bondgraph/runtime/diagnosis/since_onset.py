@@ -8,6 +8,7 @@ from itertools import accumulate
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.healthy import drifting
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead
 from bondgraph.runtime.diagnosis.isolation import (
@@ -209,8 +210,7 @@ class SinceOnset:
         bent = [self._both(whole, rows, two) for two in found[:near]]
         for one in (rows, *others.values()):
             one.weight[:] = 1.0 / (inverse(one.weight) + _early(one.value, 1.0))
-        drifting = [k for k, one in enumerate(self._tolerated) if one.kind == "value"]
-        evidence = Evidence(rows, history.drifted(drifting))
+        evidence = Evidence(rows, history.drifted(drifting(self._tolerated)))
         later = [two for own in bent for two in evidence.both(own.case, [(0, 1)])]
         later += evidence.both(case, [self._numbers(two) for two in found[near:]])
         moved = [own.case.slopes for own in bent]

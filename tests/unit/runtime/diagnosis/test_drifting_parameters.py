@@ -1,0 +1,77 @@
+"""A winding that warms up within its tolerance, solved here from sample to sample."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import bondgraph
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.monitoring.verdict import Verdict
+
+_TEXT = """bg 1
+model Winding {
+    param L = 20 mH
+    param R = 1.2 Ohm +- 10%
+    Se:U -> 1:coil
+    coil { -> I:L; -> R:R; -> Df:i }
+}
+"""
+_RATE = 100.0
+
+
+@cache
+def _winding() -> Compilation:
+    return bondgraph.compile(text=_TEXT, rate=_RATE, bandwidth=2.0)  # a row every 1.5 s
+
+
+def _told(seed: int, share: np.ndarray) -> list[Verdict]:
+    """What is said where the resistance has a `share` of what is declared, at each sample."""
+    c, draw = _winding(), np.random.default_rng(seed)
+    t = np.arange(len(share)) / _RATE
+    level = np.repeat(draw.uniform(1.0, 4.0, len(t) // 300 + 1), 300)[: len(t)]
+    volts, i = np.zeros(len(t)), np.zeros(len(t))
+    for k in range(1, len(t)):
+        volts[k] = volts[k - 1] + 0.02 * (level[k] - volts[k - 1])
+        r, middle = 1.2 * share[k], 0.5 * (volts[k - 1] + volts[k])
+        i[k] = middle / r + (i[k - 1] - middle / r) * np.exp(-r / 0.02 / _RATE)
+    samples = np.column_stack([volts, i + 0.002 * draw.standard_normal(len(t))])
+    engine = c.engine()
+    assert [k.path for k in engine.signals] == ["U", "i"]
+    watch = c.diagnosis(engine)
+    parts = [slice(start, start + 500) for start in range(0, len(t), 500)]
+    return [one for part in parts
+            for one in watch.update(t[part], engine.run(samples[part]), samples[part])]  # fmt: skip
+
+
+def _warm(seconds: float) -> np.ndarray:
+    t = np.arange(round(seconds * _RATE)) / _RATE
+    return 0.95 + 0.12 * (1.0 - np.exp(-t / 400.0))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_winding_that_warms_up_gives_no_alarm(seed: int) -> None:
+    assert [v for v in _told(seed, _warm(900.0)) if v.event == "fault"] == []
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("step", [0.02, 0.05])
+def test_a_winding_that_changes_at_once_does_within_its_tolerance(seed: int, step: float) -> None:
+    """It is the machine that was learned that has changed."""
+    share = np.full(45_000, 0.95)
+    share[40_000:] += step
+    first, named = (next(v for v in _told(seed, share) if v.event == event)
+                    for event in ("fault", "update"))  # fmt: skip
+    assert 400.0 < first.time < 403.0
+    assert named.candidates[0].fault == "R"
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_one_that_drifts_twenty_times_as_fast_as_a_healthy_one_may_does(seed: int) -> None:
+    """By a tenth of its tolerance in five rows of 1.5 s, from 300 s on."""
+    share = np.full(35_000, 0.95)
+    share[30_000:] += 0.01 * np.arange(5_000) / (5 * 150)
+    first = next(v for v in _told(seed, share) if v.event == "fault")
+    assert 300.0 < first.time < 320.0
