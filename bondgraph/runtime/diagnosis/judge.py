@@ -225,7 +225,8 @@ class Judge:
         verdict = update(time, self.latched.since, levels, sure, found, self._two, doubles)
         best = verdict.candidates[0] if verdict.candidates and not verdict.pairs else None
         two = verdict.pairs[0].faults if verdict.pairs else ()
-        wanted = Judgement(sure, best and best.fault, two, best and best.size)
+        wanted = Judgement(sure, best.fault if best else None, two,
+                           best.size if best else None, best.unit if best else "")  # fmt: skip
         before, told = self._wanted, self.latched.said
         again = before is not None and before.says(wanted)
         if before is not None and told is not None and wanted.grown(told):

@@ -104,7 +104,7 @@ def loud(fired: Mapping[str, float]) -> list[str]:
 
 
 class Judgement(NamedTuple):
-    """The class that is named, () if of none, and the most probable candidate with its size.
+    """The class that is named, () if of none, and the most probable candidate with size and unit.
 
     Where no single fault explains what was seen, `pair` are two that do, or classes of such.
     """
@@ -113,14 +113,20 @@ class Judgement(NamedTuple):
     fault: str | None
     pair: tuple[str, ...] = ()
     size: float | None = None
+    unit: str = ""
 
     def says(self, other: Judgement) -> bool:
         """Whether it says the same, whatever the sizes."""
         return self[:3] == other[:3]
 
     def grown(self, other: Judgement) -> bool:
-        """Whether the same fault is half as large again as in another one, or as much smaller."""
+        """Whether the same fault is half as large again as in another one, or as much smaller.
+
+        A share and an offset of the same reading are no two sizes that could be compared.
+        """
         if self.size is None or other.size is None or self.fault != other.fault:
+            return False
+        if self.unit != other.unit:
             return False
         return not 1.0 / _GROWN <= self.size / (other.size or math.inf) <= _GROWN
 
@@ -135,7 +141,7 @@ class Latched(NamedTuple):
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
         said = self.said and [list(self.said.group), self.said.fault, self.times, self.said.pair,
-                              self.said.size]  # fmt: skip
+                              self.said.size, self.said.unit]  # fmt: skip
         return {"since": self.since, "said": said}
 
     @classmethod
@@ -149,9 +155,9 @@ class Latched(NamedTuple):
         since = float(state["since"])
         if state["said"] is None:
             return cls(since)
-        group, fault, times, pair, size = state["said"]
+        group, fault, times, pair, size, *unit = state["said"]  # without one before 2026-11-28
         size = None if size is None else float(size)
-        return cls(since, Judgement(tuple(group), fault, tuple(pair), size), int(times))
+        return cls(since, Judgement(tuple(group), fault, tuple(pair), size, *unit), int(times))
 
 
 def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
@@ -168,6 +174,8 @@ def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
     >>> small, same, large = (a._replace(size=x) for x in (2.0, 2.9, 3.1))
     >>> [news(Latched(0.0, small, 1), now, True, 20) for now in (same, large)]
     [False, True]
+    >>> news(Latched(0.0, small, 1), large._replace(unit="%"), True, 20)
+    False
     """
     said = latched.said
     if said is None:
