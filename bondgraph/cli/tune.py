@@ -336,13 +336,13 @@ def _row(compilation: Compilation, shown: Shown) -> tuple[str, ...] | None:
     change, unit = shown.hypothesis.told(shown.size)
     size = "" if unit == "%" else f"{change:.3g} {unit}".rstrip()
     share = "" if shown.hypothesis.kind == "gain" and size else share
-    note = ""
+    notes = [shown.residual]
     if relative is not None and relative > 1:
-        note = "  more than the value itself"
-    elif shown.smooth is None:
-        note = "  never if nothing jumps"
+        notes.append("only as an increase")  # no parameter loses more than it has
+    if shown.smooth is None:
+        notes.append("never if nothing jumps")
     elif shown.smooth > _MORE * shown.size:
         other = _relative(compilation, shown._replace(size=shown.smooth))
         plain = f"{shown.smooth:.3g} {shown.hypothesis.unit}"
-        note = f"  {plain if other is None else f'{100 * other:.3g} %'} if nothing jumps"
-    return _name(shown), size, share, f"{shown.delay:.2f} s", shown.residual + note
+        notes.append(f"{plain if other is None else f'{100 * other:.3g} %'} if nothing jumps")
+    return _name(shown), size, share, f"{shown.delay:.2f} s", "  ".join(notes)

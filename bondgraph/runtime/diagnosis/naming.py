@@ -84,8 +84,8 @@ def candidates(
     Evidence alone is of magnitudes, and where no fault fits well the one that spoils least may
     leave such a residual unexplained. Of a fault that fits only what is loud has to be seen, as in
     `suspects`, and of any where no fault is seen by all that have fired. Where none is seen by what
-    is loud, none is ruled out by that. `faults`
-    are nominal values, `sees` the faults of each residual, `signs` those of what is nominally zero.
+    is loud, none is ruled out by that. `faults` are nominal values, `sees` the faults of each
+    residual, `signs` those of what is nominally zero.
     """
     left = [possible(e, faults.get(e.fault), signs.get(e.fault)) for e in found]
     most = loud(fired)
