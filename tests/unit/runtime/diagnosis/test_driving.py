@@ -85,10 +85,11 @@ def test_an_input_that_is_read_wrongly_is_no_motion(seed: int, added: float) -> 
     assert fault.time > 1500.0 and fault.since is not None
     assert abs(fault.since - 1500.0) <= 30.0
     told = [{c.fault: c for c in v.candidates} for v in said if v.candidates]
-    # at rest a resistance that is lower looks the same; flow that is not there is told by its sign
+    # at rest a resistance that is lower looks the same, and so do a share and an offset of the flow
     assert told and all(own["q"].probability > 0.4 for own in told)
-    flow = [own["q"].size for own in told if own["q"].unit == "m^3/s"]
-    assert flow and flow[-1] == pytest.approx(-added, rel=0.1)
+    last = told[-1]["q"]
+    wanted = -added if last.unit == "m^3/s" else -100.0 * added / (1.0 + added)
+    assert last.unit in ("m^3/s", "%") and last.size == pytest.approx(wanted, rel=0.1)
 
 
 def test_a_fault_of_a_machine_that_works_is_seen() -> None:
