@@ -7,14 +7,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.noise import COVERED
+from bondgraph.runtime.diagnosis.noise import COVERED, left_for_drift
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 
 HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
 _KEPT = 1.0 - 1.0 / 1000.0  # of what is known, with each further row
-_DRIFTS = 100  # rows in which a parameter of a healthy machine drifts by what sums leave for that
+_DRIFTS = 100  # rows in which a healthy parameter drifts by `COVERED` of its deviation
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 
@@ -79,7 +79,7 @@ class History:
         """The same so many rows later: some parameters have drifted as a healthy machine's may.
 
         They walk at random (the prediction of a square-root filter; Bierman, 1977), in a hundred
-        rows by the share of their tolerances that sums leave room for; none out of its tolerance.
+        rows by a tenth of their deviation, as sums leave room for; none out of its tolerance.
 
         >>> history = History(np.array([3.0]))
         >>> history.add(np.array([1.0]), np.array([1e6]), np.array([[1.0]]))
@@ -137,10 +137,10 @@ class History:
         expected, variance = self.expected(slopes)
         sure = sure & np.isfinite(expected[:count]) & np.isfinite(variance[:count])
         unknown = UNKNOWN * np.sqrt(np.where(np.isfinite(variance), variance, 0.0))
-        bound = COVERED * (row.bound - row.doubt) + row.doubt + unknown[:count]
+        bound = left_for_drift(row.bound, row.doubt) + unknown[:count]
         if own is not None:
             less = np.where(sure & own.valid, expected[count:], 0.0)
-            most = COVERED * (own.bound - own.doubt) + own.doubt + unknown[count:]
+            most = left_for_drift(own.bound, own.doubt) + unknown[count:]
             own = own._replace(value=own.value - less, bound=np.where(sure, most, own.bound))
         return row._replace(
             value=np.where(sure, row.value - expected[:count], row.value),

@@ -15,11 +15,22 @@ _EACH = 6  # rows that there have to be for each of its numbers
 #: its correlations and that of their squares. No noise of a residual has less of a memory.
 FILTERED, _SQUARED = 2.0, 1.25
 _SLOW = 5  # rows in the mean of which noise is small
-COVERED = 0.1
+COVERED = 0.1  #: of what parameters may do: what is left for drift once a machine is known
 _FAR = 6.0 * 1.4826  # times the median distance from the median: six normal deviations
 _NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
 CAREFUL = 2.0  #: times the deviation that steps show, where they are no noise
 _LEAST = 5.0  # degrees of freedom, of however few rows
+
+
+def left_for_drift(bound: Array, doubt: Array) -> Array:
+    """What residuals of a known machine may be off by, in their units, (n, residuals) or so.
+
+    `bound` are adaptive thresholds, `doubt` is the part of them that no parameter explains.
+
+    >>> left_for_drift(np.array([1.0]), np.array([0.2])).round(2).tolist()
+    [0.28]
+    """
+    return COVERED * (bound - doubt) + doubt
 
 
 class Noise(NamedTuple):

@@ -21,7 +21,7 @@ from bondgraph.runtime.diagnosis.isolation import (
     inverse,
 )
 from bondgraph.runtime.diagnosis.model_error import SHARE
-from bondgraph.runtime.diagnosis.noise import COVERED
+from bondgraph.runtime.diagnosis.noise import left_for_drift
 from bondgraph.runtime.diagnosis.rows import CORRELATED, Row, weight
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
@@ -534,7 +534,7 @@ def _is_clear(one: Explained) -> bool:
 
 def _room(row: Row, sigma: Array) -> Array:
     """What a residual may be off by without an alarm, and the deviation of its noise."""
-    return np.array([COVERED * (row.bound - row.doubt) + row.doubt, sigma])
+    return np.array([left_for_drift(row.bound, row.doubt), sigma])
 
 
 def _stacked(rows: Sequence[Rows]) -> Rows:

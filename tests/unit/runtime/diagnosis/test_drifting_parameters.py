@@ -58,7 +58,7 @@ def test_a_winding_that_warms_up_gives_no_alarm(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("step", [0.02, 0.05])
-def test_a_winding_that_changes_at_once_does_within_its_tolerance(seed: int, step: float) -> None:
+def test_one_that_changes_at_once_within_its_tolerance_does(seed: int, step: float) -> None:
     """It is the machine that was learned that has changed."""
     share = np.full(45_000, 0.95)
     share[40_000:] += step
@@ -69,8 +69,8 @@ def test_a_winding_that_changes_at_once_does_within_its_tolerance(seed: int, ste
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_one_that_drifts_twenty_times_as_fast_as_a_healthy_one_may_does(seed: int) -> None:
-    """By a tenth of its tolerance in five rows of 1.5 s, from 300 s on."""
+def test_one_that_drifts_by_a_tenth_of_its_tolerance_in_five_rows_does(seed: int) -> None:
+    """Of 1.5 s each, from 300 s on."""
     share = np.full(35_000, 0.95)
     share[30_000:] += 0.01 * np.arange(5_000) / (5 * 150)
     first = next(v for v in _told(seed, share) if v.event == "fault")
