@@ -53,7 +53,12 @@ export class View {
     const wide = plot.over.clientWidth, at = plot.cursor.left >= 0 ? plot.cursor.left : wide;
     const { min, max } = plot.scales.x, time = plot.posToVal(at, "x");
     const zoom = (by) => this.zoom(time - (time - min) * by, time + (max - time) * by);
-    const move = (by) => plot.setCursor({ left: Math.min(wide, Math.max(0, at + by)), top: 10 }, true, true);
+    // Where moments are far apart (a network that lagged), a step goes to the next one, not a few pixels.
+    const move = (by) => {
+      const times = plot.data[0], from = plot.posToIdx(at), next = times[from + Math.sign(by)];
+      const left = plot.posToIdx(at + by) === from && next !== undefined ? plot.valToPos(next, "x") : at + by;
+      plot.setCursor({ left: Math.min(wide, Math.max(0, left)), top: 10 }, true, true);
+    };
     const does = { ArrowLeft: () => move(-STEP), ArrowRight: () => move(STEP), "+": () => zoom(0.5), "-": () => zoom(2), Home: () => this.follow() }[event.key];
     if (!does || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();

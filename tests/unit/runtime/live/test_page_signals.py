@@ -139,6 +139,23 @@ def test_a_sensor_is_chosen_by_keyboard_and_its_legend_names_the_lines(page: Pag
     assert len({one[2] for one in lines}) == 3
 
 
+def test_an_arrow_moves_to_another_moment_however_far_it_is(page: Page) -> None:
+    # 20 s in 400 px: a step of 8 px is 0.4 s, and nothing came between 2 s and 6 s.
+    code = """import('./view.js').then(({ View }) => ['ArrowLeft', 'ArrowRight'].map((key) =>
+      [0.4, 0.8, 1.2, 2, 6, 6.1, 6.4].map((from) => {
+        const times = [0.4, 0.8, 1.2, 2, 6, 6.1, 6.4], near = (x) => times.reduce((best, t, k) =>
+          Math.abs(t - x / 20) < Math.abs(times[best] - x / 20) ? k : best, 0);
+        let found = null;
+        View.prototype.key.call({}, { key, preventDefault() {} }, {
+          data: [times], over: { clientWidth: 400 }, cursor: { left: 20 * from },
+          scales: { x: { min: 0, max: 20 } }, posToVal: (x) => x / 20, valToPos: (t) => 20 * t,
+          posToIdx: near, setCursor: ({ left }) => { found = times[near(left)]; },
+        });
+        return found;
+      })))"""
+    assert page.tab.run(code) == [[0.4, 0.4, 0.8, 1.2, 2, 6, 6], [0.8, 1.2, 2, 6, 6.4, 6.4, 6.4]]
+
+
 def test_the_cursor_reads_what_the_exported_table_has(page: Page) -> None:
     _pause(page, True)
     header, rows = _table(page)
