@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Container, Mapping, Sequence
 from types import MappingProxyType
 
@@ -11,7 +10,7 @@ from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.since_onset import BENT, MOST, SinceOnset
-from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine, copied
 
 
@@ -96,9 +95,9 @@ class Comparison:
         if self._beside is not None:
             self._beside.follow(fault)
 
-    def shows(self, fault: Explained, clear: Array | float = math.inf) -> Mask | None:
+    def moves(self, changes: Mapping[Hypothesis, float]) -> Array | None:
         """See `SinceOnset`."""
-        return None if self._beside is None else self._beside.shows(fault, clear)
+        return None if self._beside is None else self._beside.moves(changes)
 
     def pairs(
         self, history: History, singles: Sequence[Explained]

@@ -28,12 +28,13 @@ class Detection:
     A fault is over once it is twenty times as probable that the residuals which have fired, all
     together, are those of a healthy machine as that each goes on as it has been while it was out,
     normal with that mean and deviation (Wald, 1945), and more probable of each: two rows for a
-    large fault, some more for a small one. A row in which one is as far out as an alarm takes
-    speaks against that, however it was before: it may swing. A fault that comes and goes is not
-    told each time: what comes back soon has to be away for twice as long the next time, for so many
-    rows at most as a `pause` has. Nor does a row tell in which the fault that explains all would
-    not show, as where it acts in a part of a motion only; when nothing is out for long, it is over
-    nevertheless.
+    large fault, some more for a small one. Where it is known what fault it is it may as well do in
+    a row what it does there, as far as that: what is less probable for an end counts. So a row
+    tells nothing in which that fault would not show, as where it acts in a part of a motion only;
+    when nothing is out for long, it is over nevertheless. A row in which one is as far out as an
+    alarm takes speaks against an end, however it was before: it may swing. A fault that comes and
+    goes is not told each time: what comes back soon has to be away for twice as long the next time,
+    for so many rows at most as a `pause` has.
     """
 
     def __init__(
@@ -132,23 +133,23 @@ class Detection:
         self._quiet = 0
 
     def over(
-        self, row: Row, limits: Array, shows: Callable[[Array], Mask | None] = lambda _: None
+        self, row: Row, limits: Array, moves: Callable[[], Array | None] = lambda: None
     ) -> bool:
         """Whether the fault is over, with one row more.
 
-        `shows` says which residuals the fault would move now if it was still there, where that is
-        known: one that it would not move is quiet for no reason. It is asked while one is quiet,
-        with how far out each is for an alarm.
+        `moves` says by how much the fault would move each residual now if it was still there, where
+        that is known (NaN where not): where it would not, a residual is quiet for no reason. It is
+        asked while one speaks for an end.
         """
         seen = row.valid & self.fired & np.isfinite(limits[:, 0])  # others tell nothing
-        excess = np.sign(row.value) * np.maximum(np.abs(row.value) - row.bound, 0.0)
-        excess = np.where(seen, excess / limits[:, 0], 0.0)
+        excess = np.where(seen, _excess(row.value, row, limits), 0.0)
         loud = np.abs(excess) > 1.0
-        clear = row.bound + limits[:, 2] * limits[:, 0]
-        moved = shows(clear) if (seen & ~loud).any() else None
-        if moved is not None:
-            seen &= moved | loud
         more = np.where(seen & (self._sum[0] > 0), self._more(excess, limits[:, 5]), 0.0)
+        moved = moves() if (seen & (~loud | (more > 0.0))).any() else None
+        if moved is not None:
+            without, tells = _without(moved, row, limits)
+            seen &= tells | loud
+            more = np.where(seen, np.minimum(more, without), 0.0)
         # few rows do not tell how it goes on: what was out by 5 is no more healthy at -80
         more = np.where(np.abs(excess) > limits[:, 2], -np.inf, more)
         self._healthy = np.maximum(self._healthy + more, 0.0)
@@ -203,6 +204,25 @@ class Detection:
         other.alarms = int(state["alarms"])
         other._needed, other._away, other._gone = (int(x) for x in state["pause"])
         return other
+
+
+def _excess(value: Array, row: Row, limits: Array) -> Array:
+    """By how many deviations a value is beyond what the row lets expect, on its side."""
+    beyond = np.sign(value) * np.maximum(np.abs(value) - row.bound, 0.0)
+    return np.asarray(beyond / limits[:, 0])
+
+
+def _without(moved: Array, row: Row, limits: Array) -> tuple[Array, Mask]:
+    """By how much more probable a row is without a fault that moves residuals so, and which tell.
+
+    A fault that moves one by hardly more than is expected of a healthy machine tells nothing, nor
+    does a row that is to be expected either way. Infinite where nobody knows what the fault does.
+    """
+    left, excess = _excess(row.value - moved, row, limits), _excess(row.value, row, limits)
+    unknown = np.isnan(moved)
+    more = np.where(unknown, np.inf, (left**2 - excess**2) / (2.0 * limits[:, 5]))
+    clear = np.abs(moved) > row.bound + _LEAST * limits[:, 0]
+    return more, unknown | (clear & ((left != 0.0) | (excess != 0.0)))
 
 
 def _gone(sums: Array, excess: Array, least: float) -> tuple[Array, Array]:

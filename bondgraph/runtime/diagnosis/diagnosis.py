@@ -411,7 +411,7 @@ class Diagnosis:
 
     def _over(self, row: Row, out: list[Verdict]) -> None:
         """A fault is over when its residuals have been quiet for long enough, and its signal."""
-        over = self._detection.over(row, self._limits, self._judge.shows)
+        over = self._detection.over(row, self._limits, self._judge.moves)
         if not over or self._judge.waits or self._checks.active:
             return
         assert self._judge.latched is not None

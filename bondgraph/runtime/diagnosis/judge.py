@@ -30,7 +30,7 @@ from bondgraph.runtime.diagnosis.naming import (
     update,
 )
 from bondgraph.runtime.diagnosis.rows import Row, weight
-from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 
@@ -83,14 +83,15 @@ class Judge:
         """The fault that explains all, if there is one."""
         return None if self._best is None else self._best.fault
 
-    def shows(self, clear: Array) -> Mask | None:
-        """Which residuals the fault that explains all would move now, if there is one.
-
-        As much as it usually does, or by what is `clear` of each.
-        """
-        if self._best is None or not self._compared:
+    def moves(self) -> Array | None:
+        """By how much what explains all, one fault or two, moves each residual now, if known."""
+        if self._compared is None:
             return None
-        return self._compared.shows(self._best, clear)
+        if self._two.pairs:
+            two = self._two.pairs[0]
+            return self._compared.moves(dict(zip(two.hypotheses, two.changes, strict=True)))
+        best = self._best
+        return None if best is None else self._compared.moves({best.hypothesis: best.change})
 
     def wrong(self, history: History) -> Explained | None:
         """The fault that explains all, as it is known by now."""

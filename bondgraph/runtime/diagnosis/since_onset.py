@@ -24,7 +24,7 @@ from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.noise import left_for_drift
 from bondgraph.runtime.diagnosis.rows import CORRELATED, Row, weight
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
-from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
@@ -45,7 +45,6 @@ _HUGE = 1e100  # a slope beyond it is that of a law that has run over
 _FLAT = 0.01  # evidence that is none: a size does no more than it does as a tangent
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
-_SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
 _AT_ONCE = 2**19  # slopes that onsets take side by side
 _GROWS = 3  # rows within which a residual has become as large as the fault makes it
 
@@ -150,24 +149,24 @@ class SinceOnset:
         if len(self._waiting) >= _WAIT:
             self._catch_up()
 
-    def shows(self, fault: Explained, clear: Array | float = math.inf) -> Mask | None:
-        """Which residuals the fault moves in the last row as it usually does, where that is known.
+    def moves(self, changes: Mapping[Hypothesis, float]) -> Array | None:
+        """By how much faults move each residual in the last row, NaN where that is not known.
 
-        Or by what is `clear` of each: a controller drives a machine with a fault as it does no
-        healthy one, and where it moves less than then a large fault still shows. Where something
-        is held at a position that it is told to be in, nothing shows it.
+        None where one of them is not followed any more. Where something is held at a position that
+        it is told to be in, nothing shows it.
         """
         self._catch_up()
-        held = fault.hypothesis.held
-        if held is not None:
-            told = self._told[:, self._place[held.signal]]
-            return np.full(self._slopes.shape[1], bool((told != held.position).any()))
-        k = self._all.index(fault.hypothesis)
-        if k not in self._sized:  # it is not followed any more
-            return None
-        usual = np.sqrt(self._squares[k] / len(self._rows))
-        now = np.abs(self._slopes[k])
-        return np.asarray((now >= _SHOWS * usual) | (now * abs(fault.change) > clear))
+        moved = np.zeros(self._slopes.shape[1])
+        for hypothesis, change in changes.items():
+            k, held = self._all.index(hypothesis), hypothesis.held
+            if held is not None:
+                told = self._told[:, self._place[held.signal]]
+                moved += math.nan if (told != held.position).any() else 0.0
+            elif k in self._sized:
+                moved += self._slopes[k] * change
+            else:
+                return None
+        return moved
 
     def follow(self, fault: Explained | None) -> None:
         """Once all rows that are compared are known, only what this fault shows is still wanted."""

@@ -97,9 +97,11 @@ def test_a_fault_is_not_given_up_for_its_first_size_far_up_a_bent_law(
 ) -> None:
     # what the tangent takes for its size is far from it, and with that size an offset of the speed
     # explains more
-    last = [v for v in _said(w0=value, of=of, middle=0.8) if v.event == "update"][-1]
+    said = [v for v in _said(w0=value, of=of, middle=0.8) if v.event in ("update", "cleared")]
+    assert all(v.event == "update" for v in said), "it lasts"
+    last = said[-1]
     assert last.candidates[0].fault == "w0"
-    assert last.candidates[0].size == pytest.approx(value - of, rel=0.06)
+    assert last.candidates[0].size == pytest.approx(value - of, rel=0.2)  # of six rows
     assert last.candidates[0].probability > 0.9
 
 
@@ -246,7 +248,7 @@ def test_a_fault_that_is_asked_for_later_is_compared_as_from_the_first_row_on() 
 
 
 def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> None:
-    # 600 rows are compared; of those behind them it is known whether the fault would show
+    # 600 rows are compared; of those behind them it is known what the fault would do
     history, faults = History(np.zeros(0)), ("J", "w0")
     compared = _compared(604, lambda rows: faults if rows == 600 else ())
     found = {e.fault: e for e in compared.explained(history, faults)}
@@ -257,25 +259,18 @@ def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> N
     slopes = Bank(engine.configured(), [found["J"].hypothesis], {"J": _J}).run(
         _samples(engine, 640 * 20), range(19, 640 * 20, 20)
     )[:, 0, 0]
-    usual = np.sqrt(np.mean(slopes[:600] ** 2))
-    little = np.array([0.1 * usual * abs(found["J"].change)])
-    seen, clear = [], []
+    moves = []
     for k in range(604, 640):
         part = _samples(engine, 640 * 20)[20 * k : 20 * k + 20]
         nothing = np.zeros((0, 1))
         compared.step(Row(0.0, part, engine, one.copy(), one > 0, one, one, nothing), one)
-        shows = compared.shows(found["J"])
-        assert shows is not None
-        seen.append(bool(shows[0]))
-        # less than it usually does, as where no controller works against it, and still much
-        more = compared.shows(found["J"], little)
-        assert more is not None
-        clear.append(bool(more[0]))
-        assert compared.shows(found["w0"]) is None
+        moved = compared.moves({found["J"].hypothesis: found["J"].change})
+        assert moved is not None
+        moves.append(float(moved[0]))
+        assert compared.moves({found["w0"].hypothesis: 1.0}) is None
         assert compared.explained(history, faults) == list(found.values())
-    assert seen == (np.abs(slopes[604:]) >= 0.3 * usual).tolist()
-    assert clear == (np.abs(slopes[604:]) > 0.1 * usual).tolist()
-    assert True in seen and False in seen and sum(clear) > sum(seen)
+    assert moves == pytest.approx((slopes[604:] * found["J"].change).tolist(), rel=1e-9)
+    assert min(moves) < 0.0 < max(moves)
 
 
 def test_judgements_come_with_an_eighth_more_rows(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ import pytest
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.diagnosis.tuning import Limit
-from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.log import Array
 
 #: Noise 1, a level of 4 sigma for samples, a sum of 3 for rows; of two residuals.
 _LIMITS = np.array([Limit(1.0, 10.0, 4.0, 3.0, 0.0, 1.0)] * 2)
@@ -77,10 +77,10 @@ def _alarm(detection: Detection, size: float, rows: int = 6) -> None:
     assert not any(detection.over(_row(size, size), _LIMITS) for _ in range(rows))
 
 
-def _quiet(detection: Detection, value: float = 0.0, shows: Mask | None = None) -> int:
+def _quiet(detection: Detection, value: float = 0.0, moves: Array | None = None) -> int:
     """Rows after which it is over."""
     for rows in range(1, 200):
-        if detection.over(_row(value, value), _LIMITS, lambda _: shows):
+        if detection.over(_row(value, value), _LIMITS, lambda: moves):
             detection.clear()
             assert not detection.alarmed and detection.levels() == {}
             return rows
@@ -144,20 +144,32 @@ def test_what_comes_back_soon_is_held_for_no_more_rows_than_a_pause_has() -> Non
 def test_rows_in_which_the_fault_would_not_show_do_not_tell_that_it_is_over() -> None:
     detection = Detection(["r1", "r2"], 3)
     _alarm(detection, 20.0)
-    unmoved, moved = np.array([False, False]), np.array([True, True])
-    assert not any(detection.over(_row(0.0, 0.0), _LIMITS, lambda _: unmoved) for _ in range(10))
-    asked: list[list[float]] = []
-
-    def shows(clear: Array) -> Mask:
-        asked.append(clear.tolist())
-        return moved
-
-    rows = [detection.over(_row(0.0, 0.0), _LIMITS, shows) for _ in range(2)]
+    for least in (0.0, 0.4):  # nothing, and hardly more than what gives no alarm
+        unmoved = np.array([least, -least])
+        assert not any(detection.over(_row(0.0, 0.0), _LIMITS, lambda u=unmoved: u)
+                       for _ in range(10))  # fmt: skip
+    moved = np.array([20.0, 20.0])
+    rows = [detection.over(_row(0.0, 0.0), _LIMITS, lambda: moved) for _ in range(2)]
     assert rows[-1]
-    assert asked == 2 * [(_row(0.0, 0.0).bound + _LIMITS[:, 0] * _LIMITS[:, 2]).tolist()]
     other = Detection(["r1", "r2"], 3)
     _alarm(other, 20.0)
-    assert 20 < _quiet(other, shows=unmoved) < 60, "but it does not last for ever"
+    assert 20 < _quiet(other, moves=np.zeros(2)) < 60, "but it does not last for ever"
+
+
+def test_what_the_fault_makes_of_a_row_is_no_end_of_it() -> None:
+    """It moves a residual by 20, then by less and to the other side, as a motion goes."""
+    for now in (2.0, -2.0, -20.0):
+        asked = Detection(["r1", "r2"], 3)
+        _alarm(asked, 20.0)
+        fault = np.array([now, now])
+        assert not any(asked.over(_row(now, now), _LIMITS, lambda f=fault: f) for _ in range(100))
+        assert _quiet(asked, moves=fault) <= 4, "and without it, it is over"
+    blind = Detection(["r1", "r2"], 3)
+    _alarm(blind, 20.0)
+    assert _quiet(blind, 2.0) == 2, "as far as nobody knows what the fault does"
+    unknown = Detection(["r1", "r2"], 3)
+    _alarm(unknown, 20.0)
+    assert _quiet(unknown, 2.0, np.full(2, math.nan)) == 2
 
 
 def test_a_state_goes_through_json_and_another_kind_is_refused() -> None:
