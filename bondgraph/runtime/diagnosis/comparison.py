@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from bondgraph.runtime.diagnosis.history import History
@@ -95,9 +95,9 @@ class Comparison:
         if self._beside is not None:
             self._beside.follow(fault)
 
-    def moves(self, changes: Mapping[Hypothesis, float]) -> Array | None:
+    def moves(self, faults: Iterable[tuple[Hypothesis, float]]) -> Array | None:
         """See `SinceOnset`."""
-        return None if self._beside is None else self._beside.moves(changes)
+        return None if self._beside is None else self._beside.moves(faults)
 
     def pairs(
         self, history: History, singles: Sequence[Explained]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.diagnosis.cusum import Cusum
+from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.rows import PAUSE, Part, Row, away
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
@@ -27,14 +28,13 @@ class Detection:
 
     A fault is over once it is twenty times as probable that the residuals which have fired, all
     together, are those of a healthy machine as that each goes on as it has been while it was out,
-    normal with that mean and deviation (Wald, 1945), and more probable of each: two rows for a
-    large fault, some more for a small one. Where it is known what fault it is it may as well do in
-    a row what it does there, as far as that: what is less probable for an end counts. So a row
-    tells nothing in which that fault would not show, as where it acts in a part of a motion only;
-    when nothing is out for long, it is over nevertheless. A row in which one is as far out as an
-    alarm takes speaks against an end, however it was before: it may swing. A fault that comes and
-    goes is not told each time: what comes back soon has to be away for twice as long the next time,
-    for so many rows at most as a `pause` has.
+    normal with that mean and deviation (Wald, 1945), and none speaks against it: two rows for a
+    large fault, some more for a small one. Where it is known what fault it is, it goes on as that
+    fault does in each row, as well as laws are known. So a row tells nothing in which it would not
+    show, as where it acts in a part of a motion only; when nothing is out for long, it is over
+    nevertheless. A row in which one is as far out as an alarm takes speaks against an end, however
+    it was before: it may swing. A fault that comes and goes is not told each time: what comes back
+    soon has to be away for twice as long the next time, for so many rows at most as a `pause` has.
     """
 
     def __init__(
@@ -149,7 +149,7 @@ class Detection:
         if moved is not None:
             without, tells = _without(moved, row, limits)
             seen &= tells | loud
-            more = np.where(seen, np.minimum(more, without), 0.0)
+            more = np.where(seen, np.where(np.isnan(moved), more, without), 0.0)
         # few rows do not tell how it goes on: what was out by 5 is no more healthy at -80
         more = np.where(np.abs(excess) > limits[:, 2], -np.inf, more)
         self._healthy = np.maximum(self._healthy + more, 0.0)
@@ -163,7 +163,7 @@ class Detection:
         quiet = bool((row.valid & self.fired)[self.fired].all())
         own = self._healthy[self.fired]
         self._quiet = 0 if (seen & out).any() else self._quiet + quiet
-        enough = bool(own.sum() > _OVER and (own > 0.0).all())
+        enough = bool(own.sum() > _OVER)
         return (enough and self._quiet >= self._needed) or self._quiet >= PAUSE
 
     def _more(self, excess: Array, memory: Array) -> Array:
@@ -215,14 +215,15 @@ def _excess(value: Array, row: Row, limits: Array) -> Array:
 def _without(moved: Array, row: Row, limits: Array) -> tuple[Array, Mask]:
     """By how much more probable a row is without a fault that moves residuals so, and which tell.
 
-    A fault that moves one by hardly more than is expected of a healthy machine tells nothing, nor
-    does a row that is to be expected either way. Infinite where nobody knows what the fault does.
+    What is said of a move is wrong by a share of it. A fault that moves one by hardly more than is
+    expected of a healthy machine tells nothing, nor does a row that is to be expected either way.
+    NaN where nobody knows what the fault does, which is for others to tell.
     """
     left, excess = _excess(row.value - moved, row, limits), _excess(row.value, row, limits)
-    unknown = np.isnan(moved)
-    more = np.where(unknown, np.inf, (left**2 - excess**2) / (2.0 * limits[:, 5]))
+    variance = 1.0 + (SHARE * moved / limits[:, 0]) ** 2
+    more = (np.log(variance) + left**2 / variance - excess**2) / (2.0 * limits[:, 5])
     clear = np.abs(moved) > row.bound + _LEAST * limits[:, 0]
-    return more, unknown | (clear & ((left != 0.0) | (excess != 0.0)))
+    return more, np.isnan(moved) | (clear & ((left != 0.0) | (excess != 0.0)))
 
 
 def _gone(sums: Array, excess: Array, least: float) -> tuple[Array, Array]:

@@ -72,7 +72,8 @@ class Hypothesis(NamedTuple):
     `turned` says that a change of the machine moves residuals like the opposite change of what the
     program is told: so it is with parameters and commands, not with readings.
     A gain is told in percent, that of a temperature in its `unit` at its usual `level`: a share of
-    what is counted from absolute zero says nothing to anybody.
+    what is counted from absolute zero says nothing to anybody. Where encoders stand says nothing
+    of how far a share takes them: they have no level.
     """
 
     fault: str
@@ -81,7 +82,7 @@ class Hypothesis(NamedTuple):
     usual: float
     turned: bool
     held: Stuck | None = None
-    level: float = 1.0
+    level: float = 0.0
 
     def told(self, size: float) -> tuple[float, str]:
         """A size as people are told it, and its unit.
@@ -94,6 +95,17 @@ class Hypothesis(NamedTuple):
         if self.kind != "gain":
             return size, self.unit
         return (size * self.level, self.unit) if self.unit else (100.0 * size, "%")
+
+    def off(self, size: float, lasted: float) -> float:
+        """How far a reading is off that is wrong by this size for so long (s), 0 where not known.
+
+        >>> [Hypothesis("p", kind, unit, 0.3, False, level=2e5).off(0.5, 10.0)
+        ...  for kind, unit in (("gain", ""), ("offset", "Pa"), ("drift", "Pa/s"))]
+        [100000.0, 0.5, 5.0]
+        """
+        if self.kind == "gain":
+            return abs(size) * self.level
+        return abs(size) * (lasted if self.kind == "drift" else 1.0)
 
 
 class _Lane:
@@ -406,10 +418,9 @@ def hypotheses(
             turned = signals[path].kind != "sensor"
             unit = unit if counts is None else COUNT
             found.append(Hypothesis(path, "offset", unit, usual or _USUAL, turned))
-            if unit == "K":
-                found.append(Hypothesis(path, "gain", unit, _USUAL, turned, None, size))
-            else:
-                found.append(Hypothesis(path, "gain", "", _USUAL, turned))
+            level = size if counts is None else 0.0
+            own = unit if unit == "K" else ""
+            found.append(Hypothesis(path, "gain", own, _USUAL, turned, None, level))
             if switches and turned:
                 found.append(Hypothesis(path, "stuck", "", 1.0, True, Stuck(path, 0.0)))
             if counts is not None:

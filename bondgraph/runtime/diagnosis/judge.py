@@ -89,9 +89,9 @@ class Judge:
             return None
         if self._two.pairs:
             two = self._two.pairs[0]
-            return self._compared.moves(dict(zip(two.hypotheses, two.changes, strict=True)))
+            return self._compared.moves(zip(two.hypotheses, two.changes, strict=True))
         best = self._best
-        return None if best is None else self._compared.moves({best.hypothesis: best.change})
+        return None if best is None else self._compared.moves([(best.hypothesis, best.change)])
 
     def wrong(self, history: History) -> Explained | None:
         """The fault that explains all, as it is known by now."""
@@ -226,8 +226,11 @@ class Judge:
         verdict = update(time, self.latched.since, levels, sure, found, self._two, doubles)
         best = verdict.candidates[0] if verdict.candidates and not verdict.pairs else None
         two = verdict.pairs[0].faults if verdict.pairs else ()
-        wanted = Judgement(sure, best.fault if best else None, two,
-                           best.size if best else None, best.unit if best else "")  # fmt: skip
+        wanted = Judgement(sure, None, two)
+        if best is not None:
+            (one,) = [e for e in found if e.fault == best.fault]
+            off = one.hypothesis.off(one.change, time - self.latched.since)
+            wanted = Judgement(sure, best.fault, two, best.size, best.unit, off)
         before, told = self._wanted, self.latched.said
         again = before is not None and before.says(wanted)
         if before is not None and told is not None and wanted.grown(told):

@@ -35,6 +35,7 @@ _MOST = 0.7  # share of the misfit that a fault has to take away where nothing f
 _LEVEL = 1e-3  # probability of what noise may leave over
 _LARGER = 2.0  # times the variance that noise is taken for, that it may have
 _GROWN = 1.5  # times its size that a fault has to have to be told again
+_OFF = 3.0  # times as far off, of a share beside an offset: they are alike at one level only
 _AGAIN = 5  # rows between an update and the next, twice as many each time
 LONGEST = 320  # rows that anything said again has to wait
 
@@ -106,7 +107,8 @@ def loud(fired: Mapping[str, float]) -> list[str]:
 class Judgement(NamedTuple):
     """The class that is named, () if of none, and the most probable candidate with size and unit.
 
-    Where no single fault explains what was seen, `pair` are two that do, or classes of such.
+    Where no single fault explains what was seen, `pair` are two that do, or classes of such. `off`
+    says how far the reading was off that is wrong, in its own unit, 0 where nobody knows that.
     """
 
     group: tuple[str, ...]
@@ -114,6 +116,7 @@ class Judgement(NamedTuple):
     pair: tuple[str, ...] = ()
     size: float | None = None
     unit: str = ""
+    off: float = 0.0
 
     def says(self, other: Judgement) -> bool:
         """Whether it says the same, whatever the sizes."""
@@ -122,12 +125,13 @@ class Judgement(NamedTuple):
     def grown(self, other: Judgement) -> bool:
         """Whether the same fault is half as large again as in another one, or as much smaller.
 
-        A share and an offset of the same reading are no two sizes that could be compared.
+        A share, an offset and a rate of the same reading are no two sizes that could be compared:
+        there the reading has to be three times as far off as it was.
         """
         if self.size is None or other.size is None or self.fault != other.fault:
             return False
         if self.unit != other.unit:
-            return False
+            return self.off > _OFF * other.off > 0.0
         return not 1.0 / _GROWN <= self.size / (other.size or math.inf) <= _GROWN
 
 
@@ -141,7 +145,7 @@ class Latched(NamedTuple):
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
         said = self.said and [list(self.said.group), self.said.fault, self.times, self.said.pair,
-                              self.said.size, self.said.unit]  # fmt: skip
+                              self.said.size, self.said.unit, self.said.off]  # fmt: skip
         return {"since": self.since, "said": said}
 
     @classmethod
@@ -155,9 +159,11 @@ class Latched(NamedTuple):
         since = float(state["since"])
         if state["said"] is None:
             return cls(since)
-        group, fault, times, pair, size, *unit = state["said"]  # without one before 2026-11-28
+        group, fault, times, pair, size, *more = state["said"]
         size = None if size is None else float(size)
-        return cls(since, Judgement(tuple(group), fault, tuple(pair), size, *unit), int(times))
+        unit, off = more or ("", 0.0)  # none before 2026-11-28
+        said = Judgement(tuple(group), fault, tuple(pair), size, str(unit), float(off))
+        return cls(since, said, int(times))
 
 
 def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
@@ -174,8 +180,9 @@ def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
     >>> small, same, large = (a._replace(size=x) for x in (2.0, 2.9, 3.1))
     >>> [news(Latched(0.0, small, 1), now, True, 20) for now in (same, large)]
     [False, True]
-    >>> news(Latched(0.0, small, 1), large._replace(unit="%"), True, 20)
-    False
+    >>> share, more = (large._replace(unit="%", off=x) for x in (2.9, 3.1))
+    >>> [news(Latched(0.0, small._replace(off=1.0), 1), now, True, 20) for now in (share, more)]
+    [False, True]
     """
     said = latched.said
     if said is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 
 import numpy as np
@@ -149,15 +149,15 @@ class SinceOnset:
         if len(self._waiting) >= _WAIT:
             self._catch_up()
 
-    def moves(self, changes: Mapping[Hypothesis, float]) -> Array | None:
-        """By how much faults move each residual in the last row, NaN where that is not known.
+    def moves(self, faults: Iterable[tuple[Hypothesis, float]]) -> Array | None:
+        """By how much faults of so much move each residual in the last row, NaN if not known.
 
         None where one of them is not followed any more. Where something is held at a position that
         it is told to be in, nothing shows it.
         """
         self._catch_up()
         moved = np.zeros(self._slopes.shape[1])
-        for hypothesis, change in changes.items():
+        for hypothesis, change in faults:
             k, held = self._all.index(hypothesis), hypothesis.held
             if held is not None:
                 told = self._told[:, self._place[held.signal]]

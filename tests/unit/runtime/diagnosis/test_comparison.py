@@ -264,10 +264,10 @@ def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> N
         part = _samples(engine, 640 * 20)[20 * k : 20 * k + 20]
         nothing = np.zeros((0, 1))
         compared.step(Row(0.0, part, engine, one.copy(), one > 0, one, one, nothing), one)
-        moved = compared.moves({found["J"].hypothesis: found["J"].change})
+        moved = compared.moves([(found["J"].hypothesis, found["J"].change)])
         assert moved is not None
         moves.append(float(moved[0]))
-        assert compared.moves({found["w0"].hypothesis: 1.0}) is None
+        assert compared.moves([(found["w0"].hypothesis, 1.0)]) is None
         assert compared.explained(history, faults) == list(found.values())
     assert moves == pytest.approx((slopes[604:] * found["J"].change).tolist(), rel=1e-9)
     assert min(moves) < 0.0 < max(moves)
