@@ -126,7 +126,6 @@ class SinceOnset:
         self._rows: list[Rows] = []
         self._rooms: list[Array] = []  # of each row: what gives no alarm, and noise
         self._others: dict[int, list[Rows]] = {}  # by the number of what is held
-        self._squares = np.zeros(shape)  # sums over the rows, of slopes
         self._unsaid = np.zeros((_GROWS, shape[1]), dtype=bool)
         self._slopes = np.zeros(shape)  # of the last row
         self._told = np.zeros((0, len(engine.signals)))  # samples of the last row
@@ -394,7 +393,6 @@ class SinceOnset:
             slopes = begun.slopes[:, [begun.numbers.index(k) for k in chosen]]
             for row, one in zip(self._rows, slopes, strict=True):
                 row.slopes[chosen] = one
-            self._squares[chosen] = np.square(slopes).sum(axis=0)
             self._slopes[chosen] = slopes[-1]
 
     def _catch_up(self) -> None:
@@ -415,7 +413,6 @@ class SinceOnset:
                 others += _held(self._instead[k], rows, told, number)[:left]
             self._rows += told[:left]
             self._rooms += [_room(row, sigma) for row, sigma in rows[:left]]
-            self._squares += np.square(slopes[:left]).sum(axis=0)
             self._past += rows[: max(0, BENT - len(self._past))]
 
     def _bend(self, history: History) -> None:
