@@ -233,19 +233,21 @@ class Learning:
         return self._driving.room(samples) if self._driving else np.zeros((1, len(self._used)))
 
     def _misread(self, samples: Array, value: Array, unit: Array) -> Mask:
-        """Which residuals have no noise of a motion in most of the rows that it is learned from.
+        """Which residuals are watched again, as what was forgotten of them holds.
 
-        What was forgotten of them holds. Here is a row more of `samples`; `value` has those that
-        count, and `unit` what inputs add for one, (inputs, residuals).
+        Most of the rows that noise is learned from have none of a motion. Here is a row more of
+        `samples`; `value` has those that count, and `unit` what inputs add for one, (inputs,
+        residuals).
         """
         found = np.zeros(len(value), dtype=bool)
         for k, old in self._forgotten.items():
             if np.isfinite(value[k]):
                 old.misread.row(samples, unit[:, k], float(value[k]))
             found[k] = 2 * old.misread.rows > FIRST
+        unwatched = ~np.isfinite(self.limits[:, 0])
         for k in np.flatnonzero(found).tolist():
             self._recall(k)
-        return found
+        return np.asarray(found & unwatched)
 
     def _recall(self, k: int) -> None:
         """What was forgotten of a residual holds."""

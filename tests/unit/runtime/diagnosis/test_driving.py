@@ -68,6 +68,16 @@ def test_a_machine_that_idled_is_learned_anew_when_it_works(seed: int) -> None:
     assert 585.0 <= anew.time <= 630.0
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_who_is_watched_all_the_time_is_said_to_be_once(seed: int) -> None:
+    """With tolerances a residual is watched on while its noise is learned anew, or recalled."""
+    samples = _samples(seed, idle=2400)
+    samples[1500:, 0] += 0.5
+    told = [v.message for v in _watched(_machine("+- 40%"), samples)]
+    assert sum("watched from now on" in one for one in told) == 1
+    assert any("above what a healthy machine does" in one for one in told)
+
+
 def test_a_machine_that_idled_is_in_alarm_less_than_once_an_hour() -> None:
     said = [v for seed in range(12) for v in _watched(_machine(), _samples(seed))]
     # in 8 hours: with five it might be one an hour or more, at 95 %
