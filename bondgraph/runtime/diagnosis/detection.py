@@ -16,7 +16,7 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 
 _OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
 _QUIET = 2  # rows, at least: what moves through zero is quiet in one
-_LEAST = 0.5  # deviations of averages: a fault that is smaller is not seen
+_LEAST = 0.5  # deviations, of averages or rows: a fault that does less is not seen
 
 
 class Detection:
