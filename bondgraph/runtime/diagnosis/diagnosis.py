@@ -12,6 +12,7 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.doubt import Doubt
+from bondgraph.runtime.diagnosis.earlier import Earlier, Known
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, drifting, slack, tolerated
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
@@ -99,6 +100,7 @@ class Diagnosis:
                     if k.path in model.faults and k.counts is not None}  # fmt: skip
         modes = [at for at, k in enumerate(engine.signals) if k.kind == "mode"]
         self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders, modes, most)
+        self._earlier, self._rows = Earlier(), 0
         self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()
 
@@ -208,6 +210,7 @@ class Diagnosis:
             if found is None:
                 break
             self._calm.clear()
+            self._earlier.clear()
             self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
             mean = self._limits[:, 4].copy()
             rows = [r._replace(value=np.where(r.valid, r.value - mean, 0.0), mean=mean.copy())
@@ -237,6 +240,7 @@ class Diagnosis:
 
     def _judged(self, row: Row, out: list[Verdict]) -> None:
         """What a row tells."""
+        self._rows += 1
         self._checked(row, out)
         if self._learning is not None:
             settling = self._learning.settling
@@ -262,7 +266,7 @@ class Diagnosis:
                 self._explain(row, out)
             if known is None and self._judge.best is not None:
                 self._detection.reconsider()
-            self._over(own, out)
+            self._over(row, own, out)
 
     def _innovation(self, row: Row, unsure: Mask | bool) -> Row:
         """A row less what is expected, with room for what offsets of sensors may drift by."""
@@ -284,7 +288,6 @@ class Diagnosis:
         sound = ~self._offsets.steep(row, self._history)
         value, bound, valid = beside(self._history.innovation(row, sound), self._limits)
         moved = self._levels.learn(row.time, value, bound, valid & sound, first)
-        moved += self._levels.drifted(self._limits)
         self._limits[:, 4] += moved
         self._stood(moved)
 
@@ -316,6 +319,38 @@ class Diagnosis:
             self._history.add(*steady(old, self._weight(old) * sound))
             self._offsets.learned(old, self._history)
             self._origins.learn(self._tolerated, self._history)
+        self._earlier.add(self._known())
+        far = self._levels.far(self._limits)
+        if far.any():
+            self._drifted(far)
+            self._calm.clear()
+            moved = self._levels.drifted(self._limits)
+            self._limits[:, 4] += moved
+            self._stood(moved)
+
+    def _known(self) -> Known:
+        """What is known now."""
+        levels, limits = self._levels.copy(), self._limits.copy()
+        return Known(self._rows, self._past[-1].time, self._history, limits, levels)
+
+    def _drifted(self, out: Mask) -> None:
+        """What is `out` may have come on slowly: what was learned since that began is wrong."""
+        if self._past:
+            drifts = drifting(self._tolerated)
+            found = self._earlier.alarm(self._known(), usual(self._past), out, drifts)
+            if found is not None:
+                self._go_back(found)
+
+    def _go_back(self, known: Known) -> None:
+        """To what was known before a drift."""
+        age, own = self._rows - known.row, np.isfinite(known.limits[:, 0])
+        self._history = known.history.drifted(drifting(self._tolerated), rows=age)
+        self._levels.go_back(known.levels, own)
+        before = self._limits[:, 4].copy()
+        self._limits[own] = known.limits[own]
+        self._stood(self._limits[:, 4] - before)
+        if self._learning is not None:
+            self._learning.alarm(np.full(len(own), age))
 
     def _weight(self, row: Row) -> Array:
         return weight(row, self._limits[:, 0])
@@ -330,6 +365,7 @@ class Diagnosis:
         if self._detection.latch(fresh):
             if self._learning is not None:
                 self._learning.alarm(self._detection.held)
+            self._drifted(self._detection.fired)
             since = self._onset(time, piece)
             self._judge.latch(since)
             message = f"{self._status.names(fresh)} above what a healthy machine does since"
@@ -409,13 +445,18 @@ class Diagnosis:
         if verdict is not None:
             out.append(verdict)
 
-    def _over(self, row: Row, out: list[Verdict]) -> None:
+    def _over(self, row: Row, own: Row, out: list[Verdict]) -> None:
         """A fault is over when its residuals have been quiet for long enough, and its signal."""
-        over = self._detection.over(row, self._limits, self._judge.moves)
-        if not over or self._judge.waits or self._checks.active:
+        over = self._detection.over(own, self._limits, self._judge.moves)
+        known = self._earlier.returned(row, self._known)
+        what = "back to what a healthy machine does; what was said stays said"
+        if known is not None:
+            self._go_back(known)
+            what = f"as they were at {moment(known.time)}, before a drift that was followed"
+            what += " as healthy; what was said is how that ended"
+        elif not over or self._judge.waits or self._checks.active:
             return
         assert self._judge.latched is not None
-        what = "back to what a healthy machine does; what was said stays said"
         message = f"{self._status.names(self._detection.fired)} {what}"
         out.append(Verdict("cleared", row.time, self._judge.latched.since, message=message))
         self._detection.clear()

@@ -105,12 +105,17 @@ class Levels:
         self._variance += more
         self._free += more
 
-    def drifted(self, limits: Array) -> Array:
-        """By how much residuals have been followed that have gone too far, which is taken back.
+    def moves(self, rows: int) -> Array:
+        """The variance of where each residual stands so many rows later, (residuals,)."""
+        return np.asarray(np.maximum(self._variance, self._covered) + rows * self._step**2)
 
-        That is as far as no sample may be, from where each stood first.
-        """
-        far = np.abs(self._gone) > _line(limits, np.sqrt(self._free))
+    def far(self, limits: Array) -> Mask:
+        """Which have been followed too far: as far as no sample may be, from where they stood."""
+        return np.asarray(np.abs(self._gone) > _line(limits, np.sqrt(self._free)))
+
+    def drifted(self, limits: Array) -> Array:
+        """By how much residuals have been followed that have gone too far, which is taken back."""
+        far = self.far(limits)
         back = np.where(far, -self._gone, 0.0)
         self._variance = np.where(far, self._free, self._variance)
         self._gone[far] = 0.0
@@ -139,6 +144,17 @@ class Levels:
         self._gone = np.where(begins, 0.0, self._gone + moved)
         self._free = np.where(begins, self._variance, self._free)
         return moved
+
+    def copy(self) -> Levels:
+        """The same, which learns no more."""
+        other = Levels(len(self._step))
+        other.go_back(self, np.ones(len(self._step), dtype=bool))
+        return other
+
+    def go_back(self, known: Levels, own: Mask) -> None:
+        """Take some residuals to stand where they were `known` to."""
+        for table, before in zip(self._tables(), known._tables(), strict=True):
+            table[own] = before[own]
 
     def state(self) -> list[Any]:
         """All that `resume` needs, as plain JSON."""
