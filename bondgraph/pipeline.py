@@ -798,6 +798,12 @@ class Compilation:
         from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 
         if tuning is not None:
+            rate = 1.0 / engine.sample_time
+            if abs(tuning.rate / rate - 1) > 1e-9:
+                raise ValueError(
+                    f"it is for {tuning.rate:.9g} samples a second, and these come at {rate:.9g}"
+                    f" (`--rate {tuning.rate:.9g}` takes them at that)"
+                )
             if tuning.model != self.program.digest:
                 raise ValueError("it is of another model, or of other options")
             if abs(tuning.bandwidth / engine.bandwidth - 1) > 1e-9:

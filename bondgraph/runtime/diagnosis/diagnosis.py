@@ -142,6 +142,8 @@ class Diagnosis:
                 healthy = not self._detection.alarmed
                 fresh = self._learning.part(part, healthy, self._doubt.acted)
                 self._status.relearning(float(part.time[0]), fresh, out)
+                if self._learning.anew:
+                    self._earlier.clear()
             line = part.bound + self._levels.beyond(self._limits)
             line += self._offsets.room(part, line, self._history)
             if self._learning is not None:

@@ -1,8 +1,8 @@
 """What was known of a machine earlier, to go back to when a fault has come on slowly.
 
-A healthy machine drifts, and is followed. What drifts faster than that is followed for a while, too,
-as each row tells so little of it: a sensor, a leak that grows. Once it is told as a fault, what was
-learned since it began is wrong; it would be told too small, and as there, with the other sign, when
+A healthy machine drifts, and is followed. What drifts faster than that is followed for a while,
+too, as each row tells so little of it: a sensor, a leak that grows. Once it is told as a fault,
+what was learned since it began is wrong: it would be told too small, and with the other sign when
 it is gone.
 """
 

@@ -224,6 +224,11 @@ class Learning:
             self._wanted[k], self.limits[k, 0] = True, math.inf
 
     @property
+    def anew(self) -> bool:
+        """Whether noise is learned anew: what was known before is of a machine at rest."""
+        return bool(self._forgotten)
+
+    @property
     def settling(self) -> Mask:
         """Which residuals are not judged, as they show an input that is faster than ever."""
         return self._driving.settling

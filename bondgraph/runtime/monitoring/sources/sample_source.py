@@ -24,6 +24,7 @@ _CRYSTAL = 1e-4  # of a rate: no clock is nearer to the number on its label
 _SURE, _DIGITS = 1e-6, 9  # of a rate: nothing is told more exactly, nor with more digits
 _GAP = 3.5  # steps: what is longer is no few samples lost
 _LATE = 0.7  # steps that a sample may be late by before one before it counts as lost
+_TWICE = 0.1  # of all samples: if no more come twice, they are no samples of their own
 _FIRST = 1000  # samples whose rate is taken
 _FEW, _PAUSE = 20, 0.1  # blocks that wait so many s for more
 
@@ -109,6 +110,8 @@ def rate_of(time: Array) -> float | None:
     100.0
     >>> rate_of(np.round(np.arange(1000) / 610.35, 7))
     610.35
+    >>> rate_of(np.sort(np.append(np.arange(1000.0), [12.02, 371.05, 802.03])))
+    1.0
     """
     steps = np.diff(time[:_FIRST])
     steps = steps[steps > 0.0]
@@ -127,14 +130,18 @@ def rate_of(time: Array) -> float | None:
 def _step(steps: Array) -> tuple[float, float]:
     """The time between two samples, and which share of it the steps leave open.
 
-    Lost samples are counted, and gaps left out. The ends of all steps together are as uncertain as
-    the times differ from a uniform grid between them: for steps that are uncertain each by itself
-    three times the largest difference holds in 99 of 100 logs (a random walk and its bridge).
+    Lost samples are counted, gaps left out, and samples that came twice are none: those soon after
+    another, as long as they are few. Where many do, they come in pieces. The ends of all steps
+    together are as uncertain as the times differ from a uniform grid between them: for steps that
+    are uncertain each by itself three times the largest difference holds in 99 of 100 logs (a
+    random walk and its bridge).
     """
     step = float(np.median(steps))
     for _ in range(3):  # a clock of few digits has steps of two sizes, and their mean is the step
         kept = steps[steps < _GAP * step]
+        twice = kept < (1.0 - _LATE) * step
         counts = np.maximum(np.floor(kept / step + (1.0 - _LATE)), 1.0)
+        counts = np.where(twice & (twice.mean() < _TWICE), 0.0, counts)
         step = float(kept.sum() / counts.sum())
     off = np.cumsum(kept - counts * step)
     return step, 3.0 * float(np.max(np.abs(off))) / (step * float(counts.sum()))

@@ -145,6 +145,10 @@ def test_jitter_and_lost_samples_do_not_change_a_round_rate() -> None:
         grid = np.flatnonzero(draw.random(900) > 0.05) / rate  # one in twenty is lost
         assert rate_of(grid) == rate
         assert rate_of(grid + draw.uniform(-0.2, 0.2, len(grid)) / rate) == rate
+        twice = grid[draw.random(len(grid)) < 0.05]  # and one in twenty comes twice
+        again = np.sort(np.append(grid, twice + 0.03 / rate))
+        assert rate_of(again) == rate
+        assert rate_of(again + draw.uniform(-0.2, 0.2, len(again)) / rate) == rate
         walk = np.cumsum(draw.normal(1.0, 0.02, 500)) / rate  # each step is uncertain by itself
         assert rate_of(walk) == pytest.approx(rate, rel=5e-3)
 
