@@ -71,6 +71,10 @@ class Cusum:
         over = self.sums > self._tops(limits)
         return int(self._since[over].max(initial=0.0))
 
+    def high(self, limits: Array) -> Mask:
+        """Which residuals have a sum that is too high now."""
+        return np.asarray((self.sums > self._tops(limits)).any(axis=0))
+
     def heights(self, normal: Array) -> Array:
         """The heights that tell of a fault, (5, residuals); `normal` are those for normal rows."""
         stretch = np.maximum((self._excess + _BEFORE) / (self._count + _BEFORE), 1.0)

@@ -31,10 +31,11 @@ class Detection:
     normal with that mean and deviation (Wald, 1945), and none speaks against it: two rows for a
     large fault, some more for a small one. Where it is known what fault it is, it goes on as that
     fault does in each row, as well as laws are known. So a row tells nothing in which it would not
-    show, as where it acts in a part of a motion only; when nothing is out for long, it is over
-    nevertheless. A row in which one is as far out as an alarm takes speaks against an end, however
-    it was before: it may swing. A fault that comes and goes is not told each time: what comes back
-    soon has to be away for twice as long the next time, for so many rows at most as a `pause` has.
+    show, as where it acts in a part of a motion only. When no alarm would be given for long, it is
+    over nevertheless: what a fault does may be as noisy as its residual, and explain noise. A row
+    in which one is as far out as an alarm takes speaks against an end, however it was before: it
+    may swing. A fault that comes and goes is not told each time: what comes back soon has to be
+    away for twice as long the next time, for so many rows at most as a `pause` has.
     """
 
     def __init__(
@@ -59,7 +60,8 @@ class Detection:
         self._sum = np.zeros((6, len(self._names)))
         self._held = np.zeros((6, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
-        self._quiet = 0  # rows that nothing was out in
+        self._quiet = 0  # rows that nothing speaks against an end in
+        self._still = 0  # rows that nothing is out in
 
     @property
     def alarmed(self) -> bool:
@@ -112,6 +114,7 @@ class Detection:
             gap = self._away + self._gone  # rows without it
             self._needed = away(gap, self._gone, _QUIET, self._pause)
         self.fired = self.fired | fresh
+        self._still = 0
         self.reconsider()
         self.alarms += first
         return first
@@ -163,8 +166,10 @@ class Detection:
         quiet = bool((row.valid & self.fired)[self.fired].all())
         own = self._healthy[self.fired]
         self._quiet = 0 if (seen & out).any() else self._quiet + quiet
+        high = self._cusum.high(limits) | (np.abs(excess) > limits[:, 2])
+        self._still = 0 if (row.valid & self.fired & high).any() else self._still + quiet
         enough = bool(own.sum() > _OVER)
-        return (enough and self._quiet >= self._needed) or self._quiet >= PAUSE
+        return (enough and self._quiet >= self._needed) or self._still >= PAUSE
 
     def _more(self, excess: Array, memory: Array) -> Array:
         """By how much a row makes it more probable that the fault of each residual is gone.

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from scipy.special import log_ndtr
+
 from bondgraph.ir.signature_matrix import DoubleFaults
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import (
@@ -35,6 +37,8 @@ _MOST = 0.7  # share of the misfit that a fault has to take away where nothing f
 _LEVEL = 1e-3  # probability of what noise may leave over
 _LARGER = 2.0  # times the variance that noise is taken for, that it may have
 _GROWN = 1.5  # times its size that a fault has to have to be told again
+_WRONG, _BEYOND = 0.1, 3.0  # of a value, and deviations, that it may seem to be on the wrong side
+_FAR = 1e3  # deviations: farther out a normal distribution is an exponential one
 _OFF = 3.0  # times as far off, of a share beside an offset: they are alike at one level only
 _AGAIN = 5  # rows between an update and the next, twice as many each time
 LONGEST = 320  # rows that anything said again has to wait
@@ -44,15 +48,36 @@ def possible(explained: Explained, nominal: float | None, sign: int | None = Non
     """No fault turns a parameter into its opposite: what would need that is no explanation.
 
     Nor does one that is zero take the sign with which an R would deliver power, where only one
-    `sign` dissipates. `change` is how much less than now the parameter was.
+    `sign` dissipates. `change` is how much less than now the parameter was. Where it is less sure
+    than that, what can be is left of it (a truncated normal distribution), and counts as far as it
+    is probable; laws may be wrong by a tenth of a value.
+
+    >>> from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+    >>> area = Hypothesis("A", "value", "m^2", 0.02, turned=True)
+    >>> told = [Explained("A", 9.0, area, change, deviation=0.04) for change in (0.1, 0.21, 0.4)]
+    >>> can = [possible(one, nominal=0.2) for one in told]
+    >>> [(round(one.evidence, 2), round(one.change, 3)) for one in can]
+    [(9.0, 0.1), (9.0, 0.171), (-inf, 0.4)]
     """
-    if nominal == 0.0 and sign and sign * explained.change > 3.0 * explained.deviation:
+    change, deviation = explained.change, explained.deviation
+    side = math.copysign(1.0, nominal) if nominal else float(sign or 0)
+    value = side * ((nominal or 0.0) - change)  # as the machine has it now
+    if nominal is None or value >= 0.0:
+        return explained
+    far = -value - _WRONG * abs(nominal)
+    if far > _BEYOND * deviation:
         return explained._replace(evidence=-math.inf)
-    if nominal:
-        left = 1.0 - explained.change / nominal  # of the value, as the machine has it now
-        if left < -0.1 - 3.0 * explained.deviation / abs(nominal):
-            return explained._replace(evidence=-math.inf)
-    return explained
+    less = float(log_ndtr(-far / deviation)) + math.log(2.0) if far > 0.0 else 0.0
+    left = deviation * _mean_above(-value / deviation) if deviation > 0.0 else 0.0
+    change += side * (value - left)
+    return explained._replace(evidence=explained.evidence + less, change=change)
+
+
+def _mean_above(z: float) -> float:
+    """The mean of what a normal deviate is above z > 0, where it is."""
+    if z > _FAR:
+        return 1.0 / z
+    return math.exp(-0.5 * z * z - float(log_ndtr(-z))) / math.sqrt(2.0 * math.pi) - z
 
 
 def suspects(

@@ -7,6 +7,7 @@ So these are told of the signal, by what it was like while all was well, without
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Collection, Container, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
@@ -33,6 +34,7 @@ _SHARE = 50  # samples of which such a share is taken: of 15 one that is 0.5 fal
 _STILL = 5.0  # times as long as it ever stood still
 _LEAST = 20  # samples that it has to stand still for
 _QUIET = 3  # rows after which it is as it was; a spike with the one behind it
+_WAIT = 3  # rows that have to be usual behind one that is learned: a burst begins in the middle
 _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
 _SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
@@ -70,6 +72,19 @@ class Unusual(NamedTuple):
             text = f"{what} of {self.signal} by {100 * self.now:.3g} % of its range,"
             text += f" {100 * self.before:.2g} %"
         return f"{text} at most while the machine was well"
+
+
+class _Seen(NamedTuple):
+    """A row, with samples before it and commands, and what was seen in it (see `SignalChecks`)."""
+
+    samples: Array
+    steered: Array
+    count: int
+    far: Array
+    rough: Array
+    moved: Array
+    ended: Array
+    changes: Array
 
 
 class SignalChecks:
@@ -130,6 +145,7 @@ class SignalChecks:
         self._steered = np.empty((0, len(self._steer)))  # commands and modes of these samples
         self._run = np.zeros(len(self._names))
         self._tail = np.empty((0, len(self._names)))
+        self._waiting: deque[_Seen] = deque()  # healthy rows, as those behind them are not known
         self._path = np.full((_LEAST, len(self._names)), math.nan)  # before each stood still last
         #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
         self._loud = np.zeros((_AFTER, 2, len(self._names)), dtype=np.bool_)
@@ -186,8 +202,13 @@ class SignalChecks:
         self._driven = 0 if driven or beyond.any() else self._driven + 1
         if self._driven < _AFTER:
             found = {n: one for n, one in found.items() if one.kind == "stuck"}
-        if healthy and not found:
-            self._learn(with_last, steered, len(own), far, rough, moved, ended, changes)
+        if not healthy or any(one.kind == "burst" for one in found.values()):
+            self._waiting.clear()
+        elif not found:
+            seen = _Seen(with_last, steered, len(own), far, rough, moved, ended, changes)
+            self._waiting.append(seen)
+            if len(self._waiting) > _WAIT:
+                self._learn(self._waiting.popleft())
         return found, driven
 
     def _rests(
@@ -269,10 +290,12 @@ class SignalChecks:
             floor = _FLOOR * np.maximum(span, 1e-300)
             spike = far[0] > np.maximum(_OUT * self._far[0], floor)
             spike &= far[0] > _ALONE * far[2]
-            louder = self._louder() * self._driving(rough, span) * self._rough[0]
+            told = [n in self.active and self.active[n].kind == "burst" for n in self._names]
+            share = np.where(told, 0.5, 1.0)  # it goes on until it is half as much
+            louder = share * self._louder() * self._driving(rough, span) * self._rough[0]
             burst = rough > np.maximum(louder, least * span)
             beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
-            burst &= beside > np.minimum(_ROUGHER * self._rough[1], _WHITE)
+            burst &= beside > share * np.minimum(_ROUGHER * self._rough[1], _WHITE)
             longest = np.maximum(_STILL * self._still, _LEAST)
             # a spike is no part of the range that it is told in shares of, wherever in a row it is
             known = self._range[1] - self._range[0]
@@ -334,13 +357,11 @@ class SignalChecks:
             last, before = with_last[-4 * _SIDE :], steered[-4 * _SIDE :]
             if len(with_last) >= 4 * _SIDE + 1:
                 far, rough, moved, _ = self._looked_at(with_last, steered)
-                self._learn(with_last, steered, len(row), far, rough, moved, ended, changes)
+                seen = _Seen(with_last, steered, len(row), far, rough, moved, ended, changes)
+                self._learn(seen)
         self._last = last
 
-    def _learn(
-        self, samples: Array, steered: Array, count: int, far: Array, rough: Array, moved: Array,
-        ended: Array, changes: Array,
-    ) -> None:  # fmt: skip
+    def _learn(self, row: _Seen) -> None:
         """A healthy row more, of the signals that have a value all through it.
 
         It has so many samples, and others before it. What the last of them are is known with the
@@ -348,6 +369,7 @@ class SignalChecks:
 
         Two spikes in a row are not told, and not what the signal does: it is as smooth as ever.
         """
+        samples, steered, count, far, rough, moved, ended, changes = row
         fresh = np.isfinite(far[0]) & (self._samples < _MOST)
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
             out = far[0] > np.maximum(

@@ -162,7 +162,9 @@ def test_what_the_fault_makes_of_a_row_is_no_end_of_it() -> None:
         asked = Detection(["r1", "r2"], 3)
         _alarm(asked, 20.0)
         fault = np.array([now, now])
-        assert not any(asked.over(_row(now, now), _LIMITS, lambda f=fault: f) for _ in range(100))
+        for _ in range(100):
+            asked.row(_row(now, now), _LIMITS)
+            assert not asked.over(_row(now, now), _LIMITS, lambda f=fault: f)
         assert _quiet(asked, moves=fault) <= 4, "and without it, it is over"
     blind = Detection(["r1", "r2"], 3)
     _alarm(blind, 20.0)
@@ -170,6 +172,21 @@ def test_what_the_fault_makes_of_a_row_is_no_end_of_it() -> None:
     unknown = Detection(["r1", "r2"], 3)
     _alarm(unknown, 20.0)
     assert _quiet(unknown, 2.0, np.full(2, math.nan)) == 2
+
+
+def test_what_no_alarm_would_be_given_for_does_not_keep_one_for_ever() -> None:
+    """Noise that goes as the fault says, as where a signal's noise is in what the fault does."""
+    detection = Detection(["r1", "r2"], 3)
+    _alarm(detection, 20.0)
+    draw = np.random.default_rng(1)
+    rows = 0
+    over = False
+    while not over:
+        rows, noise = rows + 1, float(draw.standard_normal())
+        detection.row(_row(noise, noise), _LIMITS)
+        fault = np.array([noise, noise])
+        over = detection.over(_row(noise, noise), _LIMITS, lambda f=fault: f)
+    assert 32 <= rows <= 80
 
 
 def test_a_state_goes_through_json_and_another_kind_is_refused() -> None:

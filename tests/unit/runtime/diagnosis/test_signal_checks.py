@@ -284,6 +284,17 @@ def test_a_sensor_that_dies_hides_nothing_of_the_others(dead: int) -> None:
     assert (one.signal, one.kind) == ("T", "spike")
 
 
+@pytest.mark.parametrize("at", range(2500, 2525, 2))
+def test_noise_that_sets_in_within_a_row_is_told(at: int) -> None:
+    """And not learned with that row, so that the next one is no louder than ever."""
+    samples, draw = _signals(5), np.random.default_rng(at)
+    more = 0.3 * np.minimum(np.arange(len(samples) - at) / 50.0, 1.0)  # in two rows
+    samples[at:, 2] += more * draw.normal(size=len(more))
+    said = _looked(samples)
+    assert ("T", "burst") in {(one.signal, one.kind) for one in said}
+    assert {one.signal for one in said} == {"T"}
+
+
 def test_a_burst_of_a_sensor_that_dies_is_over() -> None:
     samples = _signals(5)
     samples[2000:2200, 2] += np.random.default_rng(1).normal(size=200)
