@@ -16,6 +16,7 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 
 _OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
 _QUIET = 2  # rows, at least: what moves through zero is quiet in one
+_STILL = 8  # rows without an alarm, or so many as a pause has: what nobody sees any more is over
 _LEAST = 0.5  # deviations, of averages or rows: a fault that does less is not seen
 
 
@@ -169,7 +170,7 @@ class Detection:
         high = self._cusum.high(limits) | (np.abs(excess) > limits[:, 2])
         self._still = 0 if (row.valid & self.fired & high).any() else self._still + quiet
         enough = bool(own.sum() > _OVER)
-        return (enough and self._quiet >= self._needed) or self._still >= PAUSE
+        return (enough and self._quiet >= self._needed) or self._still >= max(self._pause, _STILL)
 
     def _more(self, excess: Array, memory: Array) -> Array:
         """By how much a row makes it more probable that the fault of each residual is gone.

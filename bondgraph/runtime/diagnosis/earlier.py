@@ -61,7 +61,9 @@ class Earlier:
     """What was known after earlier rows, the more seldom the longer that is ago."""
 
     def __init__(self) -> None:
-        self.clear()
+        self._known: list[Known] = []
+        self._drift: Known | None = None
+        self._usual = 0  # rows that have been as before the drift
 
     def add(self, known: Known) -> None:
         """What is known now."""
@@ -70,9 +72,7 @@ class Earlier:
 
     def clear(self) -> None:
         """What was known is of something else."""
-        self._known: list[Known] = []
-        self._drift: Known | None = None
-        self._usual = 0  # rows that have been as before the drift
+        self._known, self._drift = [], None
 
     def alarm(
         self, now: Known, rows: Sequence[Row], out: Mask, drifting: Sequence[int]

@@ -79,7 +79,7 @@ class _Seen(NamedTuple):
 
     samples: Array
     steered: Array
-    count: int
+    number: int  # of samples in the row itself
     far: Array
     rough: Array
     moved: Array

@@ -174,9 +174,12 @@ def test_what_the_fault_makes_of_a_row_is_no_end_of_it() -> None:
     assert _quiet(unknown, 2.0, np.full(2, math.nan)) == 2
 
 
-def test_what_no_alarm_would_be_given_for_does_not_keep_one_for_ever() -> None:
+@pytest.mark.parametrize(("pause", "least"), [(32, 32), (4, 8)])
+def test_what_no_alarm_would_be_given_for_does_not_keep_one_for_ever(
+    pause: int, least: int
+) -> None:
     """Noise that goes as the fault says, as where a signal's noise is in what the fault does."""
-    detection = Detection(["r1", "r2"], 3)
+    detection = Detection(["r1", "r2"], 3, pause=pause)
     _alarm(detection, 20.0)
     draw = np.random.default_rng(1)
     rows = 0
@@ -186,7 +189,7 @@ def test_what_no_alarm_would_be_given_for_does_not_keep_one_for_ever() -> None:
         detection.row(_row(noise, noise), _LIMITS)
         fault = np.array([noise, noise])
         over = detection.over(_row(noise, noise), _LIMITS, lambda f=fault: f)
-    assert 32 <= rows <= 80
+    assert least <= rows <= least + 40
 
 
 def test_a_state_goes_through_json_and_another_kind_is_refused() -> None:
