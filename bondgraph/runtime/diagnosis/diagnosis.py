@@ -534,6 +534,7 @@ class Diagnosis:
         if detection.alarmed != (latched is not None):
             raise ValueError("residuals have fired and nothing is latched, or the other way round")
         self._tolerated, self._history = known, history
+        self._earlier.clear()
         self._offsets.resume(history)
         self.restart()
         self._detection, self._judge.latched = detection, latched

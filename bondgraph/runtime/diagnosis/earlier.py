@@ -173,6 +173,7 @@ def _left(shape: Array, values: Array, weights: Array) -> float:
 
 
 def _slopes(rows: Sequence[Row], own: Mask) -> Array:
+    """By what is tolerated, of some residuals, (tolerated, rows * own)."""
     return np.concatenate([one.slopes[:, own] for one in rows], axis=1)
 
 
