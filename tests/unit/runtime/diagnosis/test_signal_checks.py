@@ -295,6 +295,13 @@ def test_noise_that_sets_in_within_a_row_is_told(at: int) -> None:
     assert {one.signal for one in said} == {"T"}
 
 
+def test_spikes_that_come_again_and_again_are_not_told_each_time() -> None:
+    """Every eleven rows: twice, and then they are there."""
+    samples = _signals(6)
+    samples[2510::275, 1] += 1.0
+    assert [(one.signal, one.kind) for one in _looked(samples)] == [("q", "spike")] * 2
+
+
 def test_a_burst_of_a_sensor_that_dies_is_over() -> None:
     samples = _signals(5)
     samples[2000:2200, 2] += np.random.default_rng(1).normal(size=200)
