@@ -16,7 +16,7 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 
 _OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
 _QUIET = 2  # rows, at least: what moves through zero is quiet in one
-_STILL = 8  # rows without an alarm, or so many as a pause has: what nobody sees any more is over
+_STILL = 8  # rows at least that no alarm would be given in, until it is over for that alone
 _LEAST = 0.5  # deviations, of averages or rows: a fault that does less is not seen
 
 
@@ -62,7 +62,7 @@ class Detection:
         self._held = np.zeros((6, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
         self._quiet = 0  # rows that nothing speaks against an end in
-        self._still = 0  # rows that nothing is out in
+        self._still = 0  # rows that no alarm would be given in
 
     @property
     def alarmed(self) -> bool:

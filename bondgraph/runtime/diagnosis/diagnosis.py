@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.checkpoints import Checkpoint, Checkpoints
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.doubt import Doubt
-from bondgraph.runtime.diagnosis.earlier import Earlier, Known
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, drifting, slack, tolerated
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
@@ -100,7 +100,7 @@ class Diagnosis:
                     if k.path in model.faults and k.counts is not None}  # fmt: skip
         modes = [at for at, k in enumerate(engine.signals) if k.kind == "mode"]
         self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders, modes, most)
-        self._earlier, self._rows = Earlier(), 0
+        self._checkpoints, self._rows = Checkpoints(), 0
         self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()
 
@@ -143,7 +143,7 @@ class Diagnosis:
                 fresh = self._learning.part(part, healthy, self._doubt.acted)
                 self._status.relearning(float(part.time[0]), fresh, out)
                 if self._learning.anew:
-                    self._earlier.clear()
+                    self._checkpoints.clear()
             line = part.bound + self._levels.beyond(self._limits)
             line += self._offsets.room(part, line, self._history)
             if self._learning is not None:
@@ -212,7 +212,7 @@ class Diagnosis:
             if found is None:
                 break
             self._calm.clear()
-            self._earlier.clear()
+            self._checkpoints.clear()
             self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
             mean = self._limits[:, 4].copy()
             rows = [r._replace(value=np.where(r.valid, r.value - mean, 0.0), mean=mean.copy())
@@ -321,7 +321,7 @@ class Diagnosis:
             self._history.add(*steady(old, self._weight(old) * sound))
             self._offsets.learned(old, self._history)
             self._origins.learn(self._tolerated, self._history)
-        self._earlier.add(self._known())
+        self._checkpoints.add(self._checkpoint())
         far = self._levels.far(self._limits)
         if far.any():
             self._drifted(far)
@@ -330,20 +330,20 @@ class Diagnosis:
             self._limits[:, 4] += moved
             self._stood(moved)
 
-    def _known(self) -> Known:
+    def _checkpoint(self) -> Checkpoint:
         """What is known now."""
         levels, limits = self._levels.copy(), self._limits.copy()
-        return Known(self._rows, self._past[-1].time, self._history, limits, levels)
+        return Checkpoint(self._rows, self._past[-1].time, self._history, limits, levels)
 
     def _drifted(self, out: Mask) -> None:
         """What is `out` may have come on slowly: what was learned since that began is wrong."""
         if self._past:
             drifts = drifting(self._tolerated)
-            found = self._earlier.alarm(self._known(), usual(self._past), out, drifts)
+            found = self._checkpoints.alarm(self._checkpoint(), usual(self._past), out, drifts)
             if found is not None:
                 self._go_back(found)
 
-    def _go_back(self, known: Known) -> None:
+    def _go_back(self, known: Checkpoint) -> None:
         """To what was known before a drift."""
         age, own = self._rows - known.row, np.isfinite(known.limits[:, 0])
         self._history = known.history.drifted(drifting(self._tolerated), rows=age)
@@ -450,7 +450,7 @@ class Diagnosis:
     def _over(self, row: Row, own: Row, out: list[Verdict]) -> None:
         """A fault is over when its residuals have been quiet for long enough, and its signal."""
         over = self._detection.over(own, self._limits, self._judge.moves)
-        known = self._earlier.returned(row, self._known)
+        known = self._checkpoints.returned(row, self._checkpoint)
         what = "back to what a healthy machine does; what was said stays said"
         if known is not None:
             self._go_back(known)
@@ -534,7 +534,7 @@ class Diagnosis:
         if detection.alarmed != (latched is not None):
             raise ValueError("residuals have fired and nothing is latched, or the other way round")
         self._tolerated, self._history = known, history
-        self._earlier.clear()
+        self._checkpoints.clear()
         self._offsets.resume(history)
         self.restart()
         self._detection, self._judge.latched = detection, latched

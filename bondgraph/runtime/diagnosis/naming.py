@@ -48,9 +48,10 @@ def possible(explained: Explained, nominal: float | None, sign: int | None = Non
     """No fault turns a parameter into its opposite: what would need that is no explanation.
 
     Nor does one that is zero take the sign with which an R would deliver power, where only one
-    `sign` dissipates. `change` is how much less than now the parameter was. Where it is less sure
-    than that, what can be is left of it (a truncated normal distribution), and counts as far as it
-    is probable; laws may be wrong by a tenth of a value.
+    `sign` dissipates. `change` is how much less than now the parameter was. Where that is on the
+    wrong side by no more than three deviations, beyond a tenth of the value, by which laws may be
+    wrong, the change is the mean of what can be (a normal distribution, truncated), and the
+    evidence is less by how improbable that is.
 
     >>> from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
     >>> area = Hypothesis("A", "value", "m^2", 0.02, turned=True)
@@ -307,7 +308,7 @@ def pairs_that_can(
         kept = [possible(e, faults.get(e.fault), signs.get(e.fault)) for e in each]
         can = all(e.evidence == 0.0 for e in kept)
         if can and not any(own.isdisjoint(s) for s in seen):
-            left.append(pair)
+            left.append(pair._replace(changes=(kept[0].change, kept[1].change)))
     return left
 
 

@@ -235,7 +235,7 @@ class SignalChecks:
         for one in fresh:
             gone = self._away.get(one.signal, PAUSE + 1)
             quiet = 1 if one.kind == "spike" else _QUIET
-            needed = max(self._needed.get(one.signal, quiet), _QUIET)
+            needed = max(self._needed.get(one.signal, quiet), _QUIET)  # spikes come back later
             self._needed[one.signal] = away(gone, needed, quiet, self._pause)
             self.active[one.signal] = one
         for name in (*self._names, *self._encoders.names):

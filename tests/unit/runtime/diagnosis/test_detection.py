@@ -182,9 +182,8 @@ def test_what_no_alarm_would_be_given_for_does_not_keep_one_for_ever(
     detection = Detection(["r1", "r2"], 3, pause=pause)
     _alarm(detection, 20.0)
     draw = np.random.default_rng(1)
-    rows = 0
-    over = False
-    while not over:
+    rows, over = 0, False
+    while not over and rows < 200:
         rows, noise = rows + 1, float(draw.standard_normal())
         detection.row(_row(noise, noise), _LIMITS)
         fault = np.array([noise, noise])

@@ -242,6 +242,8 @@ def test_a_tuning_of_another_model_is_refused() -> None:
         _motor().diagnosis(_engine(), tuning._replace(model="other"))
     with pytest.raises(ValueError, match="rad/s"):
         _motor().diagnosis(_engine(), tuning._replace(bandwidth=3.0))
+    with pytest.raises(ValueError, match="it is for 50 samples a second, and these come at"):
+        _motor().diagnosis(_engine(), tuning._replace(rate=50.0))
     with pytest.raises(ValueError, match="warm-up"):
         tune(_engine(), _motor().diagnosis_model, [np.zeros((5, 4))], "x", 1.0)
 

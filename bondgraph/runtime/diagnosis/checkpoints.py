@@ -1,4 +1,4 @@
-"""What was known of a machine earlier, to go back to when a fault has come on slowly.
+"""Checkpoints: what was known of a machine earlier, to go back to when a fault came on slowly.
 
 A healthy machine drifts, and is followed. What drifts faster than that is followed for a while,
 too, as each row tells so little of it: a sensor, a leak that grows. Once it is told as a fault,
@@ -28,7 +28,7 @@ _ALIKE = 0.9  # cosine: what is out now is more of what has been learned
 _SUDDEN = 1.5  # times what a step leaves: a line that leaves more is none
 
 
-class Known(NamedTuple):
+class Checkpoint(NamedTuple):
     """What is known of a machine after so many rows, at a time in seconds."""
 
     row: int
@@ -57,15 +57,15 @@ class Known(NamedTuple):
         return bool((sure & loud).any())
 
 
-class Earlier:
+class Checkpoints:
     """What was known after earlier rows, the more seldom the longer that is ago."""
 
     def __init__(self) -> None:
-        self._known: list[Known] = []
-        self._drift: Known | None = None
+        self._known: list[Checkpoint] = []
+        self._drift: Checkpoint | None = None
         self._usual = 0  # rows that have been as before the drift
 
-    def add(self, known: Known) -> None:
+    def add(self, known: Checkpoint) -> None:
         """What is known now."""
         kept = [one for one in self._known if one.row % _apart(known.row - one.row) == 0]
         self._known = [*kept, known]
@@ -75,15 +75,15 @@ class Earlier:
         self._known, self._drift = [], None
 
     def alarm(
-        self, now: Known, rows: Sequence[Row], out: Mask, drifting: Sequence[int]
-    ) -> Known | None:
+        self, now: Checkpoint, rows: Sequence[Row], out: Mask, drifting: Sequence[int]
+    ) -> Checkpoint | None:
         """What was known before the drift that makes an alarm: residuals that are `out` in rows."""
         found = self._before(now, rows, out, drifting)
         on = found is not None and _goes_on(found, now, rows)
         self._drift, self._usual = None if on else found, 0
         return self._taken(found) if on else None
 
-    def returned(self, row: Row, now: Callable[[], Known]) -> Known | None:
+    def returned(self, row: Row, now: Callable[[], Checkpoint]) -> Checkpoint | None:
         """What was known before a drift, once the machine is as then: what is told ends the drift.
 
         That takes as many rows as are waited for before one counts as healthy, in each of which
@@ -97,7 +97,7 @@ class Earlier:
             self._usual += 1
         return self._taken(self._drift) if self._usual >= HEALTHY else None
 
-    def _taken(self, known: Known | None) -> Known | None:
+    def _taken(self, known: Checkpoint | None) -> Checkpoint | None:
         """What was learned after that is gone."""
         if known is not None:
             self._known = [one for one in self._known if one.row <= known.row]
@@ -105,13 +105,14 @@ class Earlier:
         return known
 
     def _before(
-        self, now: Known, rows: Sequence[Row], out: Mask, drifting: Sequence[int]
-    ) -> Known | None:
+        self, now: Checkpoint, rows: Sequence[Row], out: Mask, drifting: Sequence[int]
+    ) -> Checkpoint | None:
         """What was known before a drift began that goes on until now, if there is one.
 
         The residuals that are `out` have been followed further than those of a healthy machine
         move, whose parameters `drifting` drift, and they moved until now. Such a drift stands out
-        most, in deviations of what is healthy, beside what was known when it began.
+        most, in deviations of what is healthy, beside what was known when it began: where it began
+        is where that is largest, as with a generalized likelihood ratio (Willsky and Jones, 1976).
         """
         known = [one for one in self._known
                  if one.row < now.row and np.isfinite(one.limits[out, 0]).all()]  # fmt: skip
@@ -136,7 +137,7 @@ class Earlier:
         return found
 
 
-def _goes_on(known: Known, now: Known, rows: Sequence[Row]) -> bool:
+def _goes_on(known: Checkpoint, now: Checkpoint, rows: Sequence[Row]) -> bool:
     """Whether what is out in the last rows is more of what has been learned, and not sudden."""
     own = np.isfinite(known.limits[:, 0]) & np.isfinite(now.limits[:, 0])
     root = np.array([one.valid[own] for one in rows]) / now.limits[own, 0]
