@@ -34,7 +34,7 @@ _SHARE = 50  # samples of which such a share is taken: of 15 one that is 0.5 fal
 _STILL = 5.0  # times as long as it ever stood still
 _LEAST = 20  # samples that it has to stand still for
 _QUIET = 3  # rows after which it is as it was; a spike with the one behind it
-_WAIT = 3  # rows that have to be usual behind one that is learned: a burst begins in the middle
+_WAIT = 3  # rows that have to be usual behind one whose noise is: a burst begins in the middle
 _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
 _SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
@@ -72,19 +72,6 @@ class Unusual(NamedTuple):
             text = f"{what} of {self.signal} by {100 * self.now:.3g} % of its range,"
             text += f" {100 * self.before:.2g} %"
         return f"{text} at most while the machine was well"
-
-
-class _Seen(NamedTuple):
-    """A row, with samples before it and commands, and what was seen in it (see `SignalChecks`)."""
-
-    samples: Array
-    steered: Array
-    number: int  # of samples in the row itself
-    far: Array
-    rough: Array
-    moved: Array
-    ended: Array
-    changes: Array
 
 
 class SignalChecks:
@@ -145,7 +132,7 @@ class SignalChecks:
         self._steered = np.empty((0, len(self._steer)))  # commands and modes of these samples
         self._run = np.zeros(len(self._names))
         self._tail = np.empty((0, len(self._names)))
-        self._waiting: deque[_Seen] = deque()  # healthy rows, as those behind them are not known
+        self._waiting: deque[Array] = deque()  # as `_rough`, of the last healthy rows
         self._path = np.full((_LEAST, len(self._names)), math.nan)  # before each stood still last
         #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
         self._loud = np.zeros((_AFTER, 2, len(self._names)), dtype=np.bool_)
@@ -205,10 +192,8 @@ class SignalChecks:
         if not healthy or any(one.kind == "burst" for one in found.values()):
             self._waiting.clear()
         elif not found:
-            seen = _Seen(with_last, steered, len(own), far, rough, moved, ended, changes)
-            self._waiting.append(seen)
-            if len(self._waiting) > _WAIT:
-                self._learn(self._waiting.popleft())
+            self._learn(with_last, steered, len(own), far, rough, moved, ended, changes)
+            self._grow_rougher(_WAIT)
         return found, driven
 
     def _rests(
@@ -357,11 +342,19 @@ class SignalChecks:
             last, before = with_last[-4 * _SIDE :], steered[-4 * _SIDE :]
             if len(with_last) >= 4 * _SIDE + 1:
                 far, rough, moved, _ = self._looked_at(with_last, steered)
-                seen = _Seen(with_last, steered, len(row), far, rough, moved, ended, changes)
-                self._learn(seen)
+                self._learn(with_last, steered, len(row), far, rough, moved, ended, changes)
+        self._grow_rougher(0)
         self._last = last
 
-    def _learn(self, row: _Seen) -> None:
+    def _grow_rougher(self, wait: int) -> None:
+        """By healthy rows, but for so many of the last: noise may have set in within one."""
+        while len(self._waiting) > wait:
+            self._rough = np.fmax(self._rough, self._waiting.popleft())
+
+    def _learn(
+        self, samples: Array, steered: Array, count: int, far: Array, rough: Array, moved: Array,
+        ended: Array, changes: Array,
+    ) -> None:  # fmt: skip
         """A healthy row more, of the signals that have a value all through it.
 
         It has so many samples, and others before it. What the last of them are is known with the
@@ -369,7 +362,6 @@ class SignalChecks:
 
         Two spikes in a row are not told, and not what the signal does: it is as smooth as ever.
         """
-        samples, steered, count, far, rough, moved, ended, changes = row
         fresh = np.isfinite(far[0]) & (self._samples < _MOST)
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
             out = far[0] > np.maximum(
@@ -385,8 +377,6 @@ class SignalChecks:
             (self._far[0], far[0], fresh & ~spikes),
             (self._far[1], far[1], fresh & ~spikes),
             (self._answer[0], far[3], np.isfinite(far[0])),  # few: there are never enough of them
-            (self._rough[0], rough, fresh),
-            (self._rough[1], beside, fresh),
             (self._still, ended, fresh),
         ):
             table[which] = np.maximum(table, more)[which]
@@ -396,6 +386,7 @@ class SignalChecks:
             (self._calm, beside, fresh & usual & (moved > 0)),
         ):
             table[which] = np.minimum(table, more)[which]
+        self._waiting.append(np.where(fresh, [rough, beside], math.nan))
         self._samples += np.where(fresh, count, 0)
         self._answer[1] += np.where(np.isfinite(far[0]), far[4], 0.0)
         self._stepped = np.fmax(self._stepped, _sizes(steered).max(axis=0))

@@ -295,6 +295,14 @@ def test_noise_that_sets_in_within_a_row_is_told(at: int) -> None:
     assert {one.signal for one in said} == {"T"}
 
 
+def test_a_signal_that_stands_ever_longer_at_first_is_not_stuck() -> None:
+    """Known for 200 samples in which it stood for one: what it does then is learned at once."""
+    samples = _signals(7)
+    for at, run in ((100, 2), (206, 8), (231, 15), (251, 24)):
+        samples[at : at + run, 1] = samples[at, 1]
+    assert _looked(samples) == []
+
+
 def test_spikes_that_come_again_and_again_are_not_told_each_time() -> None:
     """Every eleven rows: twice, and then they are there."""
     samples = _signals(6)
