@@ -33,13 +33,15 @@ class Comparison:
         tolerated: Sequence[Hypothesis] = (),
         machine: Mapping[str, float] = MappingProxyType({}),
         dynamic: Container[str] = (),
+        before: Sequence[Row] = (),
     ) -> None:
+        self._before = tuple(before)
         self._engine = copied(engine)
         self._healthy, self._own = healthy, own
         self._all, self._nominal = tuple(hypotheses), nominal
         self._tolerated, self._machine = tuple(tolerated), machine
         self._dynamic = dynamic
-        self._rows: list[tuple[Row, Array]] = []  # with the noise of each residual
+        self._rows: list[tuple[Row, Array]] = []  # with the limits of each residual
         self._asked: set[int] = set()  # rows with which it was asked how well faults explain them
         self._faults: frozenset[str] = frozenset()  # that were asked for
         self._beside: SinceOnset | None = None  # these
@@ -53,13 +55,13 @@ class Comparison:
         """Whether this row was the last one."""
         return self._last is row.value
 
-    def step(self, row: Row, sigma: Array) -> None:
-        """One more row, and the noise (standard deviations) of its residuals."""
+    def step(self, row: Row, limits: Array) -> None:
+        """One more row, and the limits of its residuals, (residuals, columns of `Limit`)."""
         self._last = row.value
         if not self._count:
             row = row._replace(samples=row.samples[self._own :])
         self._count += 1
-        one = row._replace(engine=self._engine), sigma.copy()
+        one = row._replace(engine=self._engine), limits.copy()
         if self._count <= MOST:
             self._rows.append(one)
         if self._beside is not None:
@@ -78,10 +80,10 @@ class Comparison:
         own = [h for h in self._all if h.fault in faults]
         beside = SinceOnset(
             self._engine, self._healthy, own, self._nominal, self._tolerated, self._machine,
-            self._dynamic,
+            self._dynamic, self._before, self._own,
         )  # fmt: skip
-        for number, (row, sigma) in enumerate(self._rows, 1):
-            beside.step(row, sigma)
+        for number, (row, limits) in enumerate(self._rows, 1):
+            beside.step(row, limits)
             if number in self._asked and number < self._count:
                 beside.explained(history)
         if self._count > MOST:  # the samples behind these rows are not known any more

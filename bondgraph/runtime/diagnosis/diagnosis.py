@@ -22,6 +22,7 @@ from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched, loud
 from bondgraph.runtime.diagnosis.noise import COVERED
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
+from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.rows import (
     Average,
     Part,
@@ -260,7 +261,7 @@ class Diagnosis:
         if not self._detection.alarmed:
             self._remember(row)
         elif self._judge.step(
-            row, self._past, self._limits[:, 0], self._tolerated, self._history
+            row, self._past, self._limits, self._tolerated, self._history
         ):
             known = self._judge.best
             ending = self._judge.said and self._detection.ending(own, self._limits)
@@ -394,10 +395,10 @@ class Diagnosis:
             start = min(start, len(past) - 1 - self._detection.onset(self._limits))
         begin = max(0, start)  # its samples are still healthy ones, the fault begins behind them
         chosen = past[begin + 1 :]
-        sigma = self._limits[:, 0]
+        limits = self._limits
         if not past:
             none = np.empty((0, len(self._engine.signals)))
-            self._judge.compare(self._before, none, 0, [], sigma, self._tolerated, self._history)
+            self._judge.compare(self._before, none, 0, [], limits, self._tolerated, self._history)
             return time
         engine, piece = (chosen[0].engine, [chosen[0].samples]) if chosen else (self._before, piece)
         last = past[begin]
@@ -411,13 +412,16 @@ class Diagnosis:
         late = self._engine.lags[-1] + self._engine.warm_up
         late = math.ceil(late / self._engine.sample_time)
         first = begin
-        while first > 0 and sum(len(row.samples) for row in past[first:begin]) < late:
+        while first > 0 and (
+            begin + 1 - first < LAGS or sum(len(row.samples) for row in past[first:begin]) < late
+        ):
             first -= 1
         before = [row.samples for row in past[first : begin + 1]]
         healthy = np.concatenate([*before, samples[:count]])
         self._judge.compare(
-            past[first].engine, healthy, count, chosen, sigma, self._tolerated, self._history
-        )
+            past[first].engine, healthy, count, chosen, limits, self._tolerated, self._history,
+            past[first : begin + 1],
+        )  # fmt: skip
         return last.time + count * self._engine.sample_time
 
     def _odd(self, row: Row) -> bool:

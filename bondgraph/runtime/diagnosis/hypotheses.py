@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from types import MappingProxyType
 from typing import Literal
 
@@ -254,40 +255,67 @@ class Bank:
         Or only after those that are numbered `at`, in order. In units of the residual over those of
         the hypothesis. The first engine goes on too.
         """
-        self.batch = self.engine.run(samples)
         wanted = np.arange(len(samples)) if at is None else np.asarray(at, dtype=np.intp)
-        slopes = np.zeros((len(wanted), len(self._lanes), len(self.engine.residuals)))
-        wide = 1 + 2 * len(self._lanes) * (samples.shape[1] + 2 * len(self.engine.residuals))
+        return self._run(samples, wanted)[0]
+
+    def rows(
+        self, samples: Array, ends: Sequence[int], lengths: Sequence[int]
+    ) -> tuple[Array, Array]:
+        """The slopes after further samples at the ends of rows, and their averages over each row.
+
+        Both (rows, hypotheses, residuals). The first row may have more samples than are given, by
+        its length: the hypotheses have not held before.
+        """
+        last, sums = self._run(samples, np.asarray(ends, dtype=np.intp), whole=True)
+        return last, sums / np.asarray(lengths)[:, None, None]
+
+    def _run(
+        self, samples: Array, ends: npt.NDArray[np.intp], whole: bool = False
+    ) -> tuple[Array, Array]:
+        """The slopes at the ends, and if wanted the sums of all since the end before."""
+        self.batch = self.engine.run(samples)
+        count, residuals = len(self._lanes), len(self.engine.residuals)
+        slopes = np.zeros((len(ends), count, residuals))
+        sums = np.zeros_like(slopes if whole else slopes[:0])
+        wide = 1 + 2 * count * (samples.shape[1] + 2 * residuals)
         block = max(1, _AT_ONCE // wide)
-        for start in range(0, len(samples) if self._lanes else 0, block):
-            first, last = np.searchsorted(wanted, (start, start + block))
-            own = wanted[first:last]
-            value, valid = self.batch.value[own], self.batch.valid[own]
-            slopes[first:last] = self._slopes(
-                samples[start : start + block], own - start, value, valid
-            )
-        return slopes
+        for start in range(0, len(samples) if count else 0, block):
+            own = slice(start, min(start + block, len(samples)))
+            first, last = np.searchsorted(ends, (own.start, own.stop))
+            at = ends[first:last] - start
+            every = self._outputs(samples[own], self.batch.value[own], self.batch.valid[own])
+            slopes[first:last] = self._slopes(every, partial(np.take, indices=at, axis=1))
+            if whole:
+                summed = self._slopes(every, partial(_summed, ends=at))
+                some = sums[first : first + len(summed)]
+                some += summed[: len(some)]
+        return slopes, sums
+
+    def _outputs(self, samples: Array, value: Array, valid: Mask) -> list[tuple[Array, Mask]]:
+        """What comes out of the engines of the plan, (engines, n, residuals), and of the first."""
+        tables, received = self._told(samples)
+        found, engines = [(value[None], valid[None])], self._plan.engines
+        if engines:
+            batch = engines[0].run_with(engines[1:], tables, received, self._plan.which)
+            found.insert(0, (batch.value, batch.valid))
+        return found
 
     def _slopes(
-        self, samples: Array, at: npt.NDArray[np.intp], value: Array, valid: Mask
+        self, outputs: Sequence[tuple[Array, Mask]], chosen: Callable[[Array], Array]
     ) -> Array:
-        """As `run`, with the residuals of the first engine there, (n, residuals)."""
-        plan = self._plan
-        tables, received = self._told(samples)
-        value, valid = value[None], valid[None]
-        if plan.engines:
-            batch = plan.engines[0].run_with(plan.engines[1:], tables, received, plan.which)
-            of, sound = batch.value, batch.valid
-            if len(at) < len(samples):
-                of, sound = np.take(of, at, axis=1), np.take(sound, at, axis=1)
-            value, valid = np.concatenate([of, value]), np.concatenate([sound, valid])
-        up, down = plan.ends.T
+        """The slopes of outputs at moments that are `chosen` along the second axis of a table."""
+        value, valid = (
+            np.concatenate([chosen(x) for x in own]) for own in zip(*outputs, strict=True)
+        )
+        up, down = self._plan.ends.T
         slopes = np.take(value, up, axis=0)
         slopes -= np.take(value, down, axis=0)
-        slopes /= plan.apart
+        slopes /= self._plan.apart
+        count = outputs[0][0].shape[1]
         for own, lane in zip(slopes, self._lanes, strict=True):
             if lane.left is not None:
-                own -= lane.left * _forgotten(self.engine, lane.age - len(samples) + 1 + at)
+                ages = lane.age - count + 1 + np.arange(count)
+                own -= lane.left * chosen(_forgotten(self.engine, ages)[None])[0]
         if not valid.all():
             slopes *= valid[up] & valid[down]
         return np.asarray(slopes.transpose(1, 0, 2))
@@ -349,40 +377,60 @@ def _forgotten(engine: Engine, samples: npt.NDArray[np.intp]) -> Array:
     return np.asarray(gammaincc(engine.stages, constants[:, None]))
 
 
+def _summed(table: Array, ends: npt.NDArray[np.intp]) -> Array:
+    """Sums along the second axis up to each end and behind the last; or whether all are true.
+
+    >>> _summed(np.arange(5.0)[None], np.array([1, 3])).tolist()
+    [[1.0, 5.0, 4.0]]
+    """
+    begins = np.append(0, ends + 1)
+    add = np.logical_and if table.dtype == np.bool_ else np.add
+    return np.asarray(add.reduceat(table, begins[begins < table.shape[1]], axis=1))
+
+
 class Instead:
     """The residuals of a machine in which a position is `held`: told that, they should be quiet.
 
     The programs of the `bank` on the same samples with the position in place of what is told, from
-    the moment at which it begins.
+    the moment at which it begins, beside `as_told`, a bank of the same hypotheses.
     """
 
-    def __init__(self, bank: Bank, held: Stuck) -> None:
-        self._bank, self._held = bank, held
+    def __init__(self, bank: Bank, as_told: Bank, held: Stuck) -> None:
+        self._bank, self._as_told, self._held = bank, as_told, held
         place = {k.path: at for at, k in enumerate(bank.engine.signals)}
         self._at, self._modes = place[held.signal], [place[m] for m in held.modes]
         self._moved = np.zeros(len(bank.engine.residuals), dtype=np.bool_)
 
-    def run(self, samples: Array, at: Sequence[int]) -> tuple[Array, Mask, Array, Mask]:
-        """After those of further samples that are numbered `at`: residuals, (n, residuals).
+    def rows(
+        self, samples: Array, ends: Sequence[int], lengths: Sequence[int]
+    ) -> tuple[Array, Array, Mask]:
+        """By how much it moves residuals, and their slopes, beside what was told.
 
-        Then which are valid, and slopes of the bank, (n, hypotheses, residuals). Last which of them
-        the position can have moved in the modes that were told so far. Others are to be judged as
-        they were told: they should be quiet as well.
+        At the ends of rows and in averages over them (see `Bank.rows`), both (rows, 1 + slopes,
+        residuals); and which are valid at the ends. Residuals that the position cannot have moved
+        in the modes that were told so far are to be judged as they were told: they should be quiet
+        as well.
         """
         told = samples.copy()
         told[:, self._at] = self._held.position
-        wanted = list(at)
-        slopes = self._bank.run(told, wanted)
-        batch = self._bank.batch
-        assert batch is not None
+        both = [bank.rows(table, ends, lengths)
+                for bank, table in ((self._bank, told), (self._as_told, samples))]  # fmt: skip
+        other, own = self._bank.batch, self._as_told.batch
+        assert other is not None and own is not None
+        moved = np.zeros(other.valid.shape, dtype=np.bool_)
         if len(samples):
-            own = self._held.moved(samples[:, self._modes], self._bank.engine.residuals)
-            own[0] |= self._moved
-            moved = np.logical_or.accumulate(own, axis=0)
+            moved = self._held.moved(samples[:, self._modes], self._bank.engine.residuals)
+            moved[0] |= self._moved
+            moved = np.logical_or.accumulate(moved, axis=0)
             self._moved = moved[-1]
-        else:
-            moved = np.zeros((0, len(self._moved)), dtype=np.bool_)
-        return batch.value[wanted], batch.valid[wanted], slopes, moved[wanted]
+        value = np.where(moved & other.valid & own.valid, other.value - own.value, 0.0)
+        at = np.asarray(ends, dtype=np.intp)
+        sums = _summed(value[None], at)[0, : len(at)] if len(at) else value[:0]
+        values = value[at], sums / np.asarray(lengths)[:, None]
+        slopes = [np.where(moved[at][:, None], a - b, 0.0) for a, b in zip(*both, strict=True)]
+        last, means = (np.concatenate([one[:, None], by], axis=1)
+                       for one, by in zip(values, slopes, strict=True))  # fmt: skip
+        return last, means, other.valid[at] | ~moved[at]
 
 
 def hypotheses(

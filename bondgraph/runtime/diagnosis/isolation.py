@@ -23,7 +23,8 @@ import numpy.typing as npt
 from bondgraph.runtime.diagnosis.history import History, triangle
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
 from bondgraph.runtime.diagnosis.model_error import SHARE, shares, unroot
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.diagnosis.rows import CORRELATED
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.text.tuples import NamedTuple
 
 #: Of the usual change: how large a fault is, nobody knows. Close together, so that no fault is
@@ -78,17 +79,22 @@ class Rows(NamedTuple):
 
     Value and weight (1/variance, 0 where not valid) have the shape (rows, residuals). `rest` are
     the slopes by the parameters with a tolerance, which have been off for ever, `slopes` those by
-    the hypotheses, which hold since the onset: (rows, parameters or hypotheses, residuals).
+    the hypotheses, which hold since the onset: (rows, parameters or hypotheses, residuals). `alone`
+    are values that share no noise with those before them, as others do (`CORRELATED`).
     """
 
     value: Array
     weight: Array
     rest: Array
     slopes: Array
+    alone: Mask | None = None
 
-    def part(self, start: int, stop: int | None = None) -> Rows:
-        """Some of the rows."""
-        return Rows(*[x[start:stop] for x in self])
+    @property
+    def values(self) -> int:
+        """How many values there are, such as share their noise with the next ones."""
+        known = self.weight > 0
+        alone = 0 if self.alone is None else int((known & self.alone).sum())
+        return round(int(known.sum()) + (CORRELATED - 1.0) * alone)
 
 
 def inverse(weight: Array) -> Array:
@@ -116,7 +122,7 @@ class Evidence:
 
     def __init__(self, rows: Rows, history: History) -> None:
         _finite(*rows[:3])
-        self._values = max(1, int((rows.weight > 0).sum()))
+        self._values = max(1, rows.values)
         self._prior = history.prior
         self._known = _with_errors(history.known(), rows.value.shape[1])
         _finite(self._known)  # products of finite numbers may be too large for one

@@ -44,8 +44,8 @@ _UNEXPLAINED = 20  # rows of an alarm that no single fault explains: the first a
 class Judge:
     """Compares faults while an alarm is `latched`; between alarms it learns how large signals are.
 
-    `sigma` is the noise of each residual, by which rows are weighed, `tolerated` what their slopes
-    are about.
+    `limits` are those of each residual, by whose noise rows are weighed, `tolerated` what their
+    slopes are about.
     """
 
     def __init__(self, engine: Engine, model: DiagnosisModel) -> None:
@@ -131,11 +131,15 @@ class Judge:
         healthy: Array,
         own: int,
         rows: Sequence[Row],
-        sigma: Array,
+        limits: Array,
         tolerated: Sequence[Hypothesis],
         history: History,
+        before: Sequence[Row] = (),
     ) -> None:
-        """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
+        """Begin to compare faults behind the `healthy` samples, `own` of these of the first row.
+
+        The others are those of the rows `before`, if these are known.
+        """
         model = self._model
         self._after = self._told = self._due = 0
         self._next = _JUDGE
@@ -148,26 +152,26 @@ class Judge:
         found = sized(engine, found, model.nominal, samples)
         machine = as_it_is(tolerated, model.nominal, history)
         self._compared = Comparison(
-            engine, healthy, own, found, model.nominal, tolerated, machine, model.dynamic
+            engine, healthy, own, found, model.nominal, tolerated, machine, model.dynamic, before
         )
         for row in rows:
-            self._compared.step(row, sigma)
+            self._compared.step(row, limits)
 
     def step(
         self,
         row: Row,
         past: Sequence[Row],
-        sigma: Array,
+        limits: Array,
         tolerated: Sequence[Hypothesis],
         history: History,
     ) -> bool:
         """One more row, the last of the `past`; False while there is none to begin with."""
         if self._compared is None:
-            self._begin_again(row, past, sigma, tolerated, history)
+            self._begin_again(row, past, limits, tolerated, history)
         if self._compared is None:
             return False
         if not self._compared.has(row):
-            self._compared.step(row, sigma)
+            self._compared.step(row, limits)
         self._after += 1
         return True
 
@@ -175,7 +179,7 @@ class Judge:
         self,
         row: Row,
         past: Sequence[Row],
-        sigma: Array,
+        limits: Array,
         tolerated: Sequence[Hypothesis],
         history: History,
     ) -> None:
@@ -183,14 +187,14 @@ class Judge:
         assert self.latched is not None
         since = self.latched.since
         anew = row.time <= since  # the clock has begun again
-        rows = [r for r in past if weight(r, sigma).any() and (anew or r.time > since)]
+        rows = [r for r in past if weight(r, limits[:, 0]).any() and (anew or r.time > since)]
         if not rows:
             return
         first, samples = rows[0], len(rows[0].samples)
         ago = math.ceil((first.time - since) / self._engine.sample_time)
         healthy = 0 if anew or ago >= samples else samples - max(1, ago)
         before = first.samples[:healthy]
-        self.compare(first.engine, before, healthy, rows, sigma, tolerated, history)
+        self.compare(first.engine, before, healthy, rows, limits, tolerated, history)
 
     def verdict(
         self, time: float, levels: Mapping[str, float], noise: Mapping[str, float], history: History

@@ -167,9 +167,14 @@ def together(parts: Sequence[Batch], residuals: int) -> Batch:
 
 def weight(row: Row, sigma: Array) -> Array:
     """One over the variance of its residuals, by what is known of their noise (deviation sigma)."""
+    return weights(row.value, row.valid, row.bound, row.doubt, sigma)
+
+
+def weights(value: Array, valid: Mask, bound: Array, doubt: Array, sigma: Array) -> Array:
+    """The same of residuals, of any shape."""
     with np.errstate(over="ignore"):  # what is that large has no weight
-        variance = variances(row.value, row.bound, sigma) + (_DOUBTED * row.doubt) ** 2
-    return np.where(row.valid & (variance > 0), 1.0 / np.maximum(variance, 1e-300), 0.0)
+        variance = variances(value, bound, sigma) + (_DOUBTED * doubt) ** 2
+    return np.where(valid & (variance > 0), 1.0 / np.maximum(variance, 1e-300), 0.0)
 
 
 def variances(value: Array, bound: Array, sigma: Array) -> Array:

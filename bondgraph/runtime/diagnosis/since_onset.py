@@ -22,9 +22,11 @@ from bondgraph.runtime.diagnosis.isolation import (
 )
 from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.noise import left_for_drift
-from bondgraph.runtime.diagnosis.rows import CORRELATED, Row, weight
+from bondgraph.runtime.diagnosis.row_averages import LAGS
+from bondgraph.runtime.diagnosis.row_sums import Told, told
+from bondgraph.runtime.diagnosis.rows import CORRELATED, Row
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
@@ -63,17 +65,41 @@ class _Onset(NamedTuple):
 class _Begun(NamedTuple):
     """Hypotheses, by their numbers, that have begun at an onset.
 
-    `slopes` are what they do to the rows, (rows, hypotheses, residuals), none where something is
-    held. Those with a size go on in the `bank`, `bent` where their slopes are secants; of what is
-    held there is what runs beside, and the rows as they would have been.
+    `moves` are what they do to the rows, none where something is held. Those with a size go on in
+    the `bank`, `bent` where their slopes are secants; of what is held there is what runs beside,
+    and what that changes.
     """
 
     onset: _Onset
     numbers: Sequence[int]
-    slopes: Array
+    moves: _Moves
     bank: Bank
     bent: Mapping[int, float]
-    held: Mapping[int, tuple[Instead, list[Rows]]]
+    held: Mapping[int, _Held]
+
+
+class _Moves(NamedTuple):
+    """Slopes of some hypotheses: at the ends of rows, and averages of rows with LAGS before them.
+
+    Both (rows, hypotheses, residuals).
+    """
+
+    last: Array
+    means: Array
+
+    def then(self, other: _Moves) -> _Moves:
+        """The same with further rows behind."""
+        return _Moves(*[np.concatenate([a, b]) for a, b in
+                        zip(self, (other.last, other.means[LAGS:]), strict=True)])  # fmt: skip
+
+
+class _Held(NamedTuple):
+    """What is held at a position: what runs beside, what it moves residuals by, the first of its
+    `moves`, and their slopes; and which are valid, (rows, residuals)."""
+
+    beside: Instead
+    moves: _Moves
+    sound: Mask
 
 
 class _Sized(NamedTuple):
@@ -112,20 +138,22 @@ class SinceOnset:
         tolerated: Sequence[Hypothesis],
         machine: Mapping[str, float],
         dynamic: Container[str] = (),
+        before: Sequence[Row] = (),
+        own: int = 0,
     ) -> None:
         self._engine = copied(engine)
-        self._healthy = healthy
+        self._healthy, self._before, self._own = healthy, tuple(before), own
         self._all, self._nominal = tuple(hypotheses), nominal
         self._sized = [k for k, h in enumerate(self._all) if h.held is None]
         self._tolerated = tuple(tolerated)
         self._machine = machine
         self._dynamic = {k for k, h in enumerate(self._all) if h.fault in dynamic}
         shape = len(self._all), len(engine.residuals)
-        self._waiting: list[tuple[Row, Array]] = []  # with the noise of each residual
+        self._waiting: list[tuple[Row, Array]] = []  # with the limits of each residual
         self._past: list[tuple[Row, Array]] = []
-        self._rows: list[Rows] = []
-        self._rooms: list[Array] = []  # of each row: what gives no alarm, and noise
-        self._others: dict[int, list[Rows]] = {}  # by the number of what is held
+        self._rows: list[tuple[Row, Array]] = []  # without their samples
+        self._moves = _Moves(np.zeros((0, *shape)), np.zeros((LAGS, *shape)))
+        self._held: dict[int, _Held] = {}  # by the number of what is held
         self._unsaid = np.zeros((_GROWS, shape[1]), dtype=bool)
         self._slopes = np.zeros(shape)  # of the last row
         self._told = np.zeros((0, len(engine.signals)))  # samples of the last row
@@ -136,15 +164,14 @@ class SinceOnset:
         self._tried: dict[int, tuple[_Onset, float | None]] = dict.fromkeys(
             self._sized, (_Onset(0), None)
         )
-        before, begin = self._onset(0)
-        self._bank = self._banked(before, [self._all[k] for k in self._sized], begin, {})
-        self._instead: dict[int, Instead] = {}
+        first, begin = self._onset(0)
+        self._bank = self._banked(first, [self._all[k] for k in self._sized], begin, {})
         held = [k for k, h in enumerate(self._all) if h.held is not None]
         self._take(self._begun(held, _Onset(0), {}), held)
 
-    def step(self, row: Row, sigma: Array) -> None:
-        """One more row, and the noise (standard deviations) of its residuals."""
-        self._waiting.append((row, sigma))
+    def step(self, row: Row, limits: Array) -> None:
+        """One more row, and the limits of its residuals, (residuals, columns of `Limit`)."""
+        self._waiting.append((row, limits))
         if len(self._waiting) >= _WAIT:
             self._catch_up()
 
@@ -175,7 +202,7 @@ class SinceOnset:
         k = None if fault is None else self._all.index(fault.hypothesis)
         self._bank = self._bank.part([at for at, own in enumerate(self._sized) if own == k])
         self._sized = [own for own in self._sized if own == k]
-        self._instead = {}
+        self._held = {}
 
     def explained(self, history: History) -> list[Explained]:
         """How well each fault explains the rows; raises LinAlgError as `explain` does."""
@@ -201,11 +228,12 @@ class SinceOnset:
         may drift by meanwhile. But which two it is, and how large they are, is known best with it:
         some show only then. And each of both has to show (see `_showing`).
         """
-        rows, (others,) = self._weighed([self._others])
+        seen = self._told_by()
+        rows, (others,) = self._weighed(seen, [self._held])
         whole, case = Evidence(rows, history), Case(self._all, rows.slopes, others)
         found = whole.pairs(case, singles)
         near = sum(two.evidence >= found[0].evidence - _BEHIND for two in found[:_PAIRS])
-        bent = [self._both(whole, rows, two) for two in found[:near]]
+        bent = [self._both(whole, seen, rows, two) for two in found[:near]]
         for one in (rows, *others.values()):
             one.weight[:] = 1.0 / (inverse(one.weight) + _early(one.value, 1.0))
         evidence = Evidence(rows, history.drifted(drifting(self._tolerated)))
@@ -216,11 +244,11 @@ class SinceOnset:
         found[:near] = [own.two for own in bent]
         found = [again._replace(changes=two.changes, whole=two.whole)
                  for again, two in zip(later, found, strict=True)]  # fmt: skip
-        found = [found[k] for k in self._showing(rows, found, moved)]
+        found = [found[k] for k in self._showing(seen, rows, found, moved)]
         return evidence.explained([case])[0], sorted(found, key=lambda two: -two.whole)
 
     def _showing(
-        self, rows: Rows, pairs: Sequence[ExplainedPair], moved: Sequence[Array]
+        self, seen: Told, rows: Rows, pairs: Sequence[ExplainedPair], moved: Sequence[Array]
     ) -> Iterator[int]:
         """Which pairs are two faults: each of both would show by itself, and beside the other one.
 
@@ -229,7 +257,7 @@ class SinceOnset:
         residual. What is less mends the model, or follows a supply that wanders. `moved` is what
         one of each does, (rows, 2, residuals).
         """
-        room, sigma = np.array(self._rooms).transpose(1, 0, 2)[:, :, None]
+        room, sigma = left_for_drift(seen.bound, seen.doubt)[:, None], seen.noise[:, None]
         room = room + UNKNOWN * SHARE * np.abs(rows.value)[:, None]
         known = (rows.weight > 0)[:, None] & np.isfinite(sigma)
         for k, (two, slopes) in enumerate(zip(pairs, moved, strict=True)):
@@ -241,7 +269,7 @@ class SinceOnset:
     def _numbers(self, two: ExplainedPair) -> tuple[int, int]:
         return self._all.index(two.hypotheses[0]), self._all.index(two.hypotheses[1])
 
-    def _both(self, evidence: Evidence, rows: Rows, two: ExplainedPair) -> _Both:
+    def _both(self, evidence: Evidence, seen: Told, rows: Rows, two: ExplainedPair) -> _Both:
         """Two at once with slopes up to the sizes that they have beside each other.
 
         That is not the size with which one of them explains most alone. Without the samples behind
@@ -251,8 +279,9 @@ class SinceOnset:
         best = _Both(two, Case(two.hypotheses, rows.slopes[:, own]))
         for _ in range(_TOGETHER if len(self._past) == len(self._rows) else 0):
             changes = self._secants(dict(zip(own, best.two.changes, strict=True)))
-            anew = [self._begun([k], self._tried[k][0], changes).slopes for k in own]
-            case = Case(two.hypotheses, np.concatenate(anew, axis=1))
+            anew = [self._begun([k], self._tried[k][0], changes).moves for k in own]
+            slopes = [seen.forms.of(*moves) for moves in anew]
+            case = Case(two.hypotheses, np.concatenate(slopes, axis=1))
             if not (np.abs(case.slopes) < _HUGE).all():
                 break
             (again,) = evidence.both(case, [(0, 1)])
@@ -263,24 +292,30 @@ class SinceOnset:
 
     def _found(self, history: History) -> list[Explained]:
         """How well each fault explains the rows as they are known now."""
-        rows, (others,) = self._weighed([self._others])
+        rows, (others,) = self._weighed(self._told_by(), [self._held])
         return Evidence(rows, history).explained([Case(self._all, rows.slopes, others)])[0]
 
+    def _told_by(self) -> Told:
+        """What the rows tell, as it is known by now."""
+        rows, limits = zip(*self._rows, strict=True)
+        return told(self._before, rows, limits)
+
     def _weighed(
-        self, cases: Sequence[Mapping[int, Sequence[Rows]]]
+        self, seen: Told, cases: Sequence[Mapping[int, _Held]]
     ) -> tuple[Rows, list[dict[int, Rows]]]:
         """The rows as they were told, and as they should have been told in each of some cases.
 
         All are compared by the same rows, at any onset.
         """
-        rows = _stacked(self._rows)
-        found = [{k: _stacked(own) for k, own in others.items()} for others in cases]
+        slopes = seen.forms.of(*self._moves)
+        rows = Rows(seen.value, seen.weights(seen.value), seen.rest, slopes, seen.forms.sums)
+        found = [{k: _instead(seen, rows, own) for k, own in held.items()} for held in cases]
         every = [one for others in found for one in others.values()]
         for other in every:
             self._unsaid |= np.isnan(other.weight[:_GROWS])
         early = _early(rows.value, _ERROR)
         for one in (rows, *every):
-            one.weight[:_GROWS][self._unsaid] = 0.0
+            one.weight[:_GROWS][self._unsaid[: len(one.weight)]] = 0.0
             one.weight[:] = 1.0 / (inverse(one.weight) + early)
         return rows, found
 
@@ -295,16 +330,17 @@ class SinceOnset:
         every = [k for k, one in enumerate(self._all) if one.fault not in behind]
         changes = self._changes()
         best: dict[str, tuple[float, _Begun]] = {}
+        seen = self._told_by()
         onsets, numbers = self._onsets(), len(self._past) * len(every) * self._slopes.shape[1]
         at_once = max(1, _AT_ONCE // max(1, numbers))
         for start in range(0, len(onsets), at_once):
             begun = [self._begun([k for k in every if not own.smooth or k in self._dynamic],
                                  own, changes)
                      for own in onsets[start : start + at_once]]  # fmt: skip
-            rows, others = self._weighed([
-                {one.numbers.index(k): told for k, (_, told) in one.held.items()} for one in begun
+            rows, others = self._weighed(seen, [
+                {one.numbers.index(k): told for k, told in one.held.items()} for one in begun
             ])  # fmt: skip
-            cases = [Case([self._all[k] for k in one.numbers], one.slopes, told)
+            cases = [Case([self._all[k] for k in one.numbers], seen.forms.of(*one.moves), told)
                      for one, told in zip(begun, others, strict=True)]  # fmt: skip
             explained = Evidence(rows, history).explained(cases)
             for trial, case in zip(begun, explained, strict=True):
@@ -355,14 +391,18 @@ class SinceOnset:
         count = len(self._healthy) - onset.earlier
         before, begin = self._onset(len(self._healthy) if onset.smooth else onset.earlier)
         past, healthy = self._healthy[:count], self._healthy[count:]
-        held: dict[int, tuple[Instead, list[Rows]]] = {}
+        samples, ends, lengths = self._since(count)
+        held: dict[int, _Held] = {}
         for k in own:
             position = self._all[k].held
             if position is not None:
-                other = Bank(copied(before), self._tolerated, self._nominal, begin)
-                beside = Instead(other, position)
-                beside.run(healthy, ())
-                held[k] = beside, _held(beside, self._past, self._rows, 0)
+                other, told = (
+                    Bank(copied(before), self._tolerated, self._nominal, begin) for _ in range(2)
+                )
+                beside = Instead(other, told, position)
+                last, means, sound = beside.rows(samples, ends, lengths)
+                rows = len(self._past)
+                held[k] = _Held(beside, self._behind(last, means), sound[len(sound) - rows :])
         sized = [k for k in own if k not in held]
         known = [self._all[k] for k in sized]
         bent = {at: changes[k] for at, k in enumerate(sized) if k in changes}
@@ -370,14 +410,39 @@ class SinceOnset:
             bank = self._banked(before, known, begin, bent)
         except ValueError:  # the model cannot take one of them
             bent, bank = {}, self._banked(before, known, begin, {})
-        slopes = np.zeros((len(self._past), len(own), self._slopes.shape[1]))
+        shape = len(own), self._slopes.shape[1]
+        moves = _Moves(*[np.zeros((n + len(self._past), *shape)) for n in (0, LAGS)])
         if onset.smooth and count:
             bank.onset(bank.run(past, [count - 1])[0])
-        if sized:
-            bank.run(healthy, ())
         if sized and self._past:
-            slopes[:, [k not in held for k in own]] = bank.run(*_joined(self._past))
-        return _Begun(onset, own, slopes, bank, {sized[at]: x for at, x in bent.items()}, held)
+            which = [k not in held for k in own]
+            found = self._behind(*bank.rows(samples, ends, lengths))
+            moves.last[:, which], moves.means[:, which] = found
+        elif sized:
+            bank.run(healthy, ())
+        bent = {sized[at]: x for at, x in bent.items()}
+        return _Begun(onset, own, moves, bank, bent, held)
+
+    def _since(self, count: int) -> tuple[Array, list[int], list[int]]:
+        """Samples behind so many of the healthy ones: where rows end, how many each has in all."""
+        lengths = [len(row.samples) for row in self._before]
+        ends = [end - 1 - count for end in accumulate(lengths)]
+        first = next((k for k, end in enumerate(ends) if end >= 0), len(ends))
+        start = len(self._healthy) - count - 1
+        own = [len(row.samples) for row, _ in self._past]
+        ends = ends[first:] + [start + end for end in accumulate(own)]
+        samples = [self._healthy[count:], *[row.samples for row, _ in self._past]]
+        return np.concatenate(samples), ends, lengths[first:] + self._whole(own)
+
+    def _whole(self, lengths: Sequence[int], first: bool = True) -> list[int]:
+        """How many samples rows have, the first with the healthy ones."""
+        return [n + self._own * (first and k == 0) for k, n in enumerate(lengths)]
+
+    def _behind(self, last: Array, means: Array) -> _Moves:
+        """Of rows that end with the past: those that are compared, and LAGS of averages before."""
+        rows = len(self._past)
+        means = np.concatenate([np.zeros((LAGS, *means.shape[1:])), means])
+        return _Moves(last[len(last) - rows :], means[len(means) - rows - LAGS :])
 
     def _take(self, begun: _Begun, numbers: Sequence[int]) -> None:
         """Go on with some of the hypotheses that have begun so."""
@@ -388,31 +453,34 @@ class SinceOnset:
         for k in numbers:
             self._tried[k] = begun.onset, begun.bent.get(k)
             if k in begun.held:
-                self._instead[k], self._others[k] = begun.held[k]
+                self._held[k] = begun.held[k]
         if self._past and chosen:
-            slopes = begun.slopes[:, [begun.numbers.index(k) for k in chosen]]
-            for row, one in zip(self._rows, slopes, strict=True):
-                row.slopes[chosen] = one
-            self._slopes[chosen] = slopes[-1]
+            which = [begun.numbers.index(k) for k in chosen]
+            for mine, its in zip(self._moves, begun.moves, strict=True):
+                mine[:, chosen] = its[:, which]
+            self._slopes[chosen] = self._moves.last[-1, chosen]
 
     def _catch_up(self) -> None:
         """Run the banks over the rows that wait."""
         if not self._waiting:
             return
         rows, self._waiting = self._waiting, []
-        slopes = np.zeros((len(rows), *self._slopes.shape))
-        slopes[:, self._sized] = self._bank.run(*_joined(rows))
-        self._slopes, self._told = slopes[-1].copy(), rows[-1][0].samples
-        left, number = MOST - len(self._rows), len(self._rows)
+        samples, ends = _joined(rows)
+        lengths = self._whole([len(row.samples) for row, _ in rows], not self._rows)
+        shape = self._slopes.shape
+        last, means = (np.zeros((n + len(rows), *shape)) for n in (0, LAGS))
+        last[:, self._sized], means[LAGS:, self._sized] = self._bank.rows(samples, ends, lengths)
+        self._slopes, self._told = last[-1].copy(), rows[-1][0].samples
+        left = MOST - len(self._rows)
         if left:
-            told = [
-                Rows(row.value, weight(row, sigma), row.slopes, one)
-                for (row, sigma), one in zip(rows, slopes, strict=True)
-            ]
-            for k, others in self._others.items():
-                others += _held(self._instead[k], rows, told, number)[:left]
-            self._rows += told[:left]
-            self._rooms += [_room(row, sigma) for row, sigma in rows[:left]]
+            self._moves = self._moves.then(_Moves(last[:left], means[: LAGS + left]))
+            for k, own in self._held.items():
+                moved, total, sound = own.beside.rows(samples, ends, lengths)
+                total = np.concatenate([np.zeros((LAGS, *total.shape[1:])), total])
+                more = _Moves(moved[:left], total[: LAGS + left])
+                sound = np.concatenate([own.sound, sound[:left]])
+                self._held[k] = _Held(own.beside, own.moves.then(more), sound)
+            self._rows += [(row._replace(samples=row.samples[:0]), x) for row, x in rows[:left]]
             self._past += rows[: max(0, BENT - len(self._past))]
 
     def _bend(self, history: History) -> None:
@@ -425,14 +493,15 @@ class SinceOnset:
         first steps gain no more gets no smaller ones; not before, as far up a bent law what the
         tangent takes for the size may be nothing like it.
         """
-        rows, _ = self._weighed([])
+        seen = self._told_by()
+        rows, _ = self._weighed(seen, [])
         evidence = Evidence(rows, history)
         cases = [Case([self._all[k]], rows.slopes[:, [k]]) for k in self._sized]
         now = {k: one for k, (one,) in zip(self._sized, evidence.explained(cases), strict=True)}
         wanted = {k: one.change for k, one in now.items() if _is_clear(one)}
         best = {k: _Sized(one.evidence, self._tried[k][1]) for k, one in now.items()}
         best |= {k: _Sized(-math.inf, None) for k in wanted if best[k].change is None}
-        self._larger(evidence, best, wanted)
+        self._larger(evidence, seen, best, wanted)
         steps = dict.fromkeys(wanted, _STEP)
         for _ in range(_ROUNDS):
             top = max(one.evidence for one in best.values()) - _BEHIND if best else 0.0
@@ -440,7 +509,7 @@ class SinceOnset:
                      if step > _FINE and (step == _STEP or best[k].evidence >= top)}  # fmt: skip
             at = {k: best[k].change or wanted[k] for k in steps}
             before = {k: best[k].evidence for k in steps}
-            tried = [self._larger(evidence, best, {k: at[k] * steps[k] ** way for k in steps})
+            tried = [self._larger(evidence, seen, best, {k: at[k] * steps[k] ** way for k in steps})
                      for way in (1, -1)]  # fmt: skip
             for k, step in steps.items():
                 if all(abs(own[k] - before[k]) <= _FLAT for own in tried):
@@ -451,7 +520,11 @@ class SinceOnset:
             self._take(begun, [k for k, one in best.items() if one.begun is begun])
 
     def _larger(
-        self, evidence: Evidence, best: dict[int, _Sized], changes: Mapping[int, float]
+        self,
+        evidence: Evidence,
+        seen: Told,
+        best: dict[int, _Sized],
+        changes: Mapping[int, float],
     ) -> dict[int, float]:
         """The evidence of hypotheses with other changes, and what is `best` where it is more.
 
@@ -462,9 +535,10 @@ class SinceOnset:
         for onset in dict.fromkeys(self._tried[k][0] for k in changes):
             own = [k for k in changes if self._tried[k][0] == onset]
             begun = self._begun(own, onset, changes)
+            slopes = seen.forms.of(*begun.moves)
             sound = {k: at for at, k in enumerate(own)
-                     if (np.abs(begun.slopes[:, at]) < _HUGE).all()}  # fmt: skip
-            cases = [Case([self._all[k]], begun.slopes[:, [at]]) for k, at in sound.items()]
+                     if (np.abs(slopes[:, at]) < _HUGE).all()}  # fmt: skip
+            cases = [Case([self._all[k]], slopes[:, [at]]) for k, at in sound.items()]
             for k, (one,) in zip(sound, evidence.explained(cases) if cases else (), strict=True):
                 found[k] = one.evidence
                 if one.evidence > best[k].evidence + _FLAT:
@@ -488,32 +562,17 @@ class SinceOnset:
         return float((1.0 - np.clip(1.0 - change / nominal, _LEFT, _LARGEST)) * nominal)
 
 
-def _held(
-    beside: Instead, rows: Sequence[tuple[Row, Array]], told: Sequence[Rows], number: int
-) -> list[Rows]:
-    """Rows as they would be if a position was told that is held, `number` rows after the onset.
+def _instead(seen: Told, rows: Rows, held: _Held) -> Rows:
+    """Rows as they would be if a position was told that is held.
 
     Residuals that have no value yet, in the first rows, have no weight (NaN) in any.
     """
-    found: list[Rows] = []
-    if not rows:
-        return found
-    parts = zip(*beside.run(*_joined(rows)), strict=True)
-    for (row, sigma), one, (value, valid, rest, moved) in zip(rows, told, parts, strict=True):
-        value = value - row.mean
-        other = weight(row._replace(value=value, valid=valid), sigma)
-        other[one.weight == 0] = 0.0
-        other[~valid & (one.weight > 0)] = np.nan
-        new = moved if number + len(found) < _GROWS else moved & valid
-        found.append(
-            Rows(
-                np.where(new, value, one.value),
-                np.where(new, other, one.weight),
-                np.where(new, rest, one.rest),
-                one.slopes[:0],
-            )
-        )
-    return found
+    moved = seen.forms.of(*held.moves)
+    value = rows.value + moved[:, 0]
+    weight = seen.weights(value)
+    weight[rows.weight == 0] = 0.0
+    weight[:_GROWS][~held.sound[:_GROWS] & (rows.weight[:_GROWS] > 0)] = np.nan
+    return Rows(value, weight, rows.rest + moved[:, 1:], rows.slopes[:, :0], rows.alone)
 
 
 def _joined(rows: Sequence[tuple[Row, Array]]) -> tuple[Array, list[int]]:
@@ -526,15 +585,6 @@ def _is_clear(one: Explained) -> bool:
     """Whether a change is large and clear enough for a secant."""
     least = max(_SMALL * one.hypothesis.usual, _CLEAR * one.deviation)
     return least <= abs(one.change) < math.inf
-
-
-def _room(row: Row, sigma: Array) -> Array:
-    """What a residual may be off by without an alarm, and the deviation of its noise."""
-    return np.array([left_for_drift(row.bound, row.doubt), sigma])
-
-
-def _stacked(rows: Sequence[Rows]) -> Rows:
-    return Rows(*[np.array(x) for x in zip(*rows, strict=True)])
 
 
 def _early(values: Array, error: float) -> Array:

@@ -16,6 +16,7 @@ from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
 from bondgraph.runtime.diagnosis.isolation import Explained
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.text.source import Source
@@ -204,7 +205,8 @@ def _compared(rows: int, asked: Callable[[int], Collection[str]]) -> Comparison:
     one, nothing = np.ones(1), np.zeros((0, 1))
     for k in range(rows):
         part = samples[20 * k : 20 * k + 20]
-        compared.step(Row(0.0, part, engine, 0.1 * k * one, one > 0, one, one, nothing), one)
+        row = Row(0.0, part, engine, 0.1 * k * one, one > 0, one, one, nothing)
+        compared.step(row, np.array([Limit(1.0, 1.0, 4.0, 9.0)]))
         faults = asked(k + 1)
         if faults:
             compared.explained(History(np.zeros(0)), faults)
@@ -263,7 +265,8 @@ def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> N
     for k in range(604, 640):
         part = _samples(engine, 640 * 20)[20 * k : 20 * k + 20]
         nothing = np.zeros((0, 1))
-        compared.step(Row(0.0, part, engine, one.copy(), one > 0, one, one, nothing), one)
+        row = Row(0.0, part, engine, one.copy(), one > 0, one, one, nothing)
+        compared.step(row, np.array([Limit(1.0, 1.0, 4.0, 9.0)]))
         moved = compared.moves([(found["J"].hypothesis, found["J"].change)])
         assert moved is not None
         moves.append(float(moved[0]))
@@ -296,7 +299,7 @@ def _last(compared: Comparison) -> np.ndarray:
     """Slopes of the last row."""
     beside = compared._beside
     assert beside is not None
-    return np.asarray(beside._rows[-1].slopes)
+    return np.asarray(beside._moves.last[-1])
 
 
 @pytest.mark.parametrize("seed", range(3))
