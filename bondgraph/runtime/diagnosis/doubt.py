@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
 
@@ -30,8 +29,9 @@ class Doubt:
       what moves in straight lines from sample to sample: as much as that makes is in doubt. What
       it made at most while noise was learned is in the noise; only where it is more, it counts.
     - A nonlinear law of filtered derivatives is off by what the filter does to the signals. With
-      half the time constants that is a quarter; held against that, by a filter that makes both
-      equally late, it shows how much it is, while a fault makes no difference.
+      half the time constants that is a quarter. What comes out of it then is filtered by what the
+      slower filter has more: what is linear is the same by both ways, to the last digit and however
+      fast it moves, as what a fault does to a derivative. The rest shows how much it is.
     - What adds up readings for ever adds up their noise, which walks away with the root of time.
     """
 
@@ -53,7 +53,7 @@ class Doubt:
         self._late = engine.configured(bounds=False) if late else None
         faster = engine.bandwidth * _FASTER
         self._fast = engine.configured(bandwidth=faster, bounds=False) if self._bent else None
-        self._smooth: list[Any] = [np.zeros((2 * n, 1)) for _, n in self._bent]
+        self._slower = [_Slower(engine, n) for _, n in self._bent]
         self._sample: Array | None = None
         self.acted = np.zeros((0, count))  #: of the last samples, by how much that is in doubt
         self._peak = np.zeros((2, count))  # of this row and the one before
@@ -102,18 +102,12 @@ class Doubt:
         number: int,
     ) -> Array:
         """What the approximations are off by: the most of this row and the one before."""
-        from scipy.signal import lfilter
-
         other = fast.run(samples)
         off = np.zeros_like(batch.value)
-        keep = math.exp(-_FASTER * self._engine.bandwidth * self._engine.sample_time)
-        for at, (k, stages) in enumerate(self._bent):
-            smooth = other.value[:, k]
-            for j in range(round(stages * (_FASTER - 1.0))):  # as late as the filter itself
-                own = self._smooth[at]
-                smooth, own[j] = lfilter([1.0 - keep], [1.0, -keep], smooth, zi=own[j])
+        for (k, _), slower in zip(self._bent, self._slower, strict=True):
             sound = batch.valid[:, k] & other.valid[:, k]
-            off[:, k] = np.where(sound, _BIAS * np.abs(batch.value[:, k] - smooth), 0.0)
+            slow = slower.run(other.value[:, k], other.valid[:, k])
+            off[:, k] = np.where(sound, _BIAS * np.abs(batch.value[:, k] - slow), 0.0)
             valid[:, k] &= sound
         start = 0
         while start < len(off):
@@ -126,3 +120,30 @@ class Doubt:
                 self._peak[0], self._peak[1] = self._peak[1].copy(), 0.0
             start = stop
         return off
+
+
+class _Slower:
+    """What the filter of an engine has more than one that is `_FASTER`, in so many stages."""
+
+    def __init__(self, engine: Engine, stages: int) -> None:
+        pace = engine.bandwidth * engine.sample_time
+        kept, fast = (max(2.0 - x, 0.0) / (2.0 + x) for x in (pace, _FASTER * pace))
+        new = (1.0 - kept) / (1.0 - fast)
+        self._stage = [new, -fast * new], [1.0, -kept]  # two bilinear ones, as in `Filter`
+        self._memory = np.zeros((stages, 1))
+        self._sound = False
+
+    def run(self, values: Array, valid: Mask) -> Array:
+        """Of values (n,); it is at rest at the first one that is valid."""
+        from scipy.signal import lfilter
+
+        begins = np.flatnonzero(valid & ~np.append(self._sound, valid)[:-1]).tolist()
+        found = values.copy()
+        for begin, end in pairwise(sorted({0, *begins, len(values)})):
+            if begin in begins:
+                self._memory[:] = (1.0 - self._stage[0][0]) * values[begin]
+            for memory in self._memory:
+                part = found[begin:end]
+                found[begin:end], memory[:] = lfilter(*self._stage, part, zi=memory)
+        self._sound = bool(valid[-1]) if len(valid) else self._sound
+        return found

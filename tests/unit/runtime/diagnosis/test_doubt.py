@@ -1,4 +1,6 @@
-"""A converter holds a command for a sample: a charging capacitor, whose samples are then exact.
+"""What is in doubt of a residual for no parameter: commands that are held, laws of rates.
+
+A converter holds a command for a sample: a charging capacitor, whose samples are then exact.
 
 With U held from k to k+1, v[k+1] = U[k] + (v[k] - U[k]) exp(-T/RC).
 """
@@ -8,10 +10,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pytest
 
 from bondgraph.compile_options import Options
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
+from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.log import Array
 from bondgraph.text.source import Source
 
@@ -52,3 +56,56 @@ def test_steps_of_a_held_command_are_no_fault_however_large() -> None:
         fired = [v.time for v in said if v.event == "fault"]
         assert bool(fired) == (other > 1.0)
         assert all(time >= 2 * _COUNT // 3 * _STEP for time in fired)
+
+
+_DRAG = """bg 1
+model Drag {
+    input F : N
+    param m = 2 kg
+    param c = 3 N.s^2/m^2
+    1:body { <- Se:F; -> I:m; -> C:spring = 0.1 m/N; -> R:drag { e = c*f*abs(f) } }
+    sensor x : m = spring.q
+}
+"""
+
+
+def _approximate(fast: float, step: float) -> tuple[Array, Array]:
+    """The residual of a body in a known motion of `fast` rad/s, and its doubt: of each row.
+
+    The force is read `step` too large from 30 s on.
+    """
+    made = Compilation(Source("m.bg", _DRAG), None, Options(rate=100.0, bandwidth=5.0))
+    engine = made.engine()
+    t = np.arange(6000) / 100.0
+    x, speed = -np.cos(fast * t) / fast, np.sin(fast * t)
+    drag = 3.0 * speed * np.abs(speed)
+    force = 2.0 * fast * np.cos(fast * t) + 10.0 * x + drag + step * (t >= 30.0)
+    columns = {"F": force, "x": x}
+    samples = np.column_stack([columns[k.path] for k in engine.signals])
+    doubt, found = Doubt(engine, made.diagnosis_model), []
+    nothing = np.zeros(1)
+    for start in range(0, len(t), 777):
+        part = samples[start : start + 777]
+        batch = engine.run(part)
+        # commands that are held are not looked at here
+        own, valid = doubt.run(part, batch, start, nothing, nothing + np.inf)
+        found.append(np.column_stack([batch.value[:, 0], own[:, 0], valid[:, 0]]))
+    value, off, valid = np.concatenate(found).T
+    settled = (t > 10.0) & (valid > 0)
+    assert settled.sum() > 4500
+    return value[settled], off[settled]
+
+
+@pytest.mark.parametrize("fast", [0.5, 1.0, 2.0])
+def test_a_law_of_a_filtered_rate_is_off_by_less_than_its_doubt(fast: float) -> None:
+    value, doubt = _approximate(fast, 0.0)
+    assert (np.abs(value) <= doubt).all() and np.abs(value).max() > 1e-4
+    assert np.median(doubt) < 4.0 * np.abs(value).max()
+
+
+def test_a_step_of_what_is_linear_is_in_no_doubt_however_fast() -> None:
+    """The filter shows a step of 20 N sooner or later by some way; both ways are the same."""
+    healthy, doubt = _approximate(1.0, 0.0)
+    value, other = _approximate(1.0, 20.0)
+    assert np.abs(value - healthy).max() == pytest.approx(20.0, rel=1e-6)
+    assert other == pytest.approx(doubt, abs=1e-9)
