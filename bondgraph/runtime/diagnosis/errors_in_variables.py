@@ -295,7 +295,9 @@ class ErrorsInVariables:
         """Rows and variances from what is left at a point; at `first` all rows, as they are.
 
         What is left beyond the noise of the sensors is the model's error, which no parameter
-        changes; where that would make zeros of all parameters, it is a weight alone.
+        changes; where that would make zeros of all parameters, it is a weight alone. It is there
+        from the `first` point on: a parameter that divides what is noisy would else be made
+        nothing of, so that noise drowns what the model is off by.
         """
         if not first:
             clean, added = self._rows([at])
@@ -304,8 +306,6 @@ class ErrorsInVariables:
             self._mask = self._usual(at, clean[0])
             self._filters = self._noise_filters
         self._extra[:], self._weight[:] = 0.0, 1.0
-        if first:
-            return
         value, _, _, noise = self._normal([at])
         times = (value[0] ** 2).sum(axis=0) / np.maximum(self._mask.sum(axis=0), 1)
         more = np.maximum(times - 1.0, 0.0)

@@ -27,7 +27,8 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
 
-_ROUNDS = 4  # of weights from what is left, and parameters from weights
+_FIRST = 2  # rounds with all rows: by what the declared parameters leave, no delay is known yet
+_ROUNDS = 5  # of weights from what is left, and parameters from weights
 _ASKED = 3  # times that it is asked what nothing tells
 _TOLD = 0.3  # relative deviation below which a parameter is told
 _AT_BOUND = 0.99  # of that: no more is fitted, and it may be more
@@ -54,10 +55,8 @@ def fit(
     runs = ResidualRows(engine, pieces, [seen[k.path] for k in engine.signals], model.memories)
     problem = ErrorsInVariables(runs, free, tolerances, model.reads)
     at = np.zeros(problem.size)
-    problem.weigh(at, first=True)
     for k in range(_ROUNDS):
-        if k:
-            problem.weigh(at)
+        problem.weigh(at, first=k < _FIRST)
         at = problem.solve(at)
         progress((k + 1) / (_ROUNDS + 1))
     names = problem.names
@@ -204,7 +203,8 @@ def estimated_noise(engine: Engine, pieces: Sequence[Array]) -> dict[str, float]
     for at, known in enumerate(engine.signals):
         found[known.path] = 0.0
         if known.kind == "sensor":
-            size = math.sqrt(np.mean([np.nanmean(p[:, at] ** 2) for p in pieces]))
+            squares = [np.nanmean(p[:, at] ** 2) for p in pieces if len(p)]
+            size = math.sqrt(np.mean(squares)) if squares else 0.0
             orders = [_rough([np.diff(p[:, at], k) for p in pieces], k) for k in range(2, 8)]
             least = math.sqrt(1 / 12) if known.counts is not None else _SILENT * size
             found[known.path] = max(min(orders), least)
@@ -212,7 +212,7 @@ def estimated_noise(engine: Engine, pieces: Sequence[Array]) -> dict[str, float]
 
 
 def _rough(differences: Sequence[Array], order: int) -> float:
-    whole = np.concatenate(differences)
+    whole = np.concatenate([np.empty(0), *differences])
     whole = np.abs(whole[np.isfinite(whole)])
     middle = float(np.median(whole)) if len(whole) else 0.0
     return middle / 0.6745 / math.sqrt(math.comb(2 * order, order))

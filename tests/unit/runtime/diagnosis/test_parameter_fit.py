@@ -591,3 +591,28 @@ def test_samples_at_which_the_law_has_no_value_as_declared_count_once_it_has_one
         assert one.error is not None
         assert abs(one.value - 1.0) < 4.0 * one.error < 0.01
     assert found.left[0].times == pytest.approx(1.0, abs=0.1)
+
+
+COUPLING = """bg 1
+model S { input w1 : rad/s; param kc = 60 N.m/rad +- 5%; param brake = 0.02 N.m.s/rad
+  Sf:w1 -> 0:c; c -> C:kc = 1/kc; c -> De:tau; c -> 1:load; load -> Df:w2; load -> R:brake }"""
+
+
+@pytest.mark.parametrize("gain", [1.002, 1.01])
+def test_noise_is_not_made_to_drown_what_a_model_is_off_by(gain: float) -> None:
+    """w1 - w2 = tau'/kc: with kc near 0 the noise of tau is all there is, if w2 is read wrongly."""
+    t = np.arange(6000) / 20.0
+    w2 = 130.0 + 5.0 * np.sin(0.3 * t) + 3.0 * np.sin(1.1 * t)
+    rate = 1.5 * np.cos(0.3 * t) + 3.3 * np.cos(1.1 * t)
+    draw = np.random.default_rng(6)
+    columns = {
+        "w1": w2 + 0.02 * rate / 61.5,
+        "tau": 0.02 * w2 + 0.01 * draw.standard_normal(len(t)),
+        "w2": gain * w2 + 0.05 * draw.standard_normal(len(t)),
+    }
+    c = bondgraph.compile(text=COUPLING, rate=20.0)
+    found = c.fit({"run": Log(t, columns, {}, {})}, ["kc"])
+    one = only(found)
+    assert 60.0 / 3.0 < one.value < 60.0 * 3.0
+    for left in found.left:
+        assert left.after < 1.5 * left.before
