@@ -72,13 +72,18 @@ def note(text: str) -> None:
 def read_logs(args: Namespace) -> list[tuple[str, Log]]:
     """The logs of the files, folders and patterns that the arguments name, each with its name."""
     from bondgraph.runtime.fleet.log_paths import log_files
+    from bondgraph.runtime.log import LogError
     from bondgraph.runtime.log_file import read_form
     from bondgraph.text.numerals import listed
 
     names = [file.name for file in log_files(args.logs, note)]
     if not names:
         raise Trouble(f"no log to read in {listed(args.logs, 'and')}")
-    return [(name, read_form(name, form_of(args, name))) for name in names]
+    logs = [(name, read_form(name, form_of(args, name))) for name in names]
+    for name, log in logs:
+        if not log.rows:
+            raise LogError(name, None, "no samples: there are columns, and no rows below them")
+    return logs
 
 
 def times_of(logs: list[tuple[str, Log]]) -> dict[str, str]:

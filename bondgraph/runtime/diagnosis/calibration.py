@@ -140,13 +140,11 @@ class _Work:
         self.engine = engine
         self.model = model
         #: Of each log what runs it from its start, and for how many samples residuals know that.
-        self.engines, self.lasts = zip(
-            *(started(engine, model, log, own)
-              for log, own in zip(logs, later or (False,) * len(logs), strict=True)),
-            strict=True,
-        )  # fmt: skip
+        begun = [started(engine, model, log, own)
+                 for log, own in zip(logs, later or (False,) * len(logs), strict=True)]  # fmt: skip
+        self.engines, self.lasts = [own for own, _ in begun], [last for _, last in begun]
         far = [len(log) - own for log, own in zip(logs, self.lasts, strict=True)]
-        self.lost = engine.sample_time * np.sum(far, axis=0, initial=0.0)
+        self.lost = np.zeros(len(engine.residuals)) + engine.sample_time * np.sum(far, axis=0)
         sizes = Sizes(engine)
         for log in logs:
             sizes.add(log)

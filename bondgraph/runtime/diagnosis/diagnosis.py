@@ -223,19 +223,25 @@ class Diagnosis:
             self._judge.renew()
 
     def _checked(self, row: Row, out: list[Verdict]) -> None:
-        """What signals show by themselves in a row, told as a fault of theirs."""
+        """What signals show by themselves in a row, told as a fault of theirs.
+
+        Where others show something too, it may come from one of these: a controller acts on what
+        it reads, and so a noisy sensor moves others.
+        """
         before = set(self._checks.active)
         healthy = not (self._detection.alarmed or before)
         suspects = self._seen_by_all() if self._detection.alarmed else []
         for one in self._checks.row(row.time, row.samples, healthy, suspects):
             first = not self._detection.alarmed and not before
             since = one.since if first or self._judge.latched is None else self._judge.latched.since
-            candidate = Candidate(one.signal, None, "", 1.0)
-            levels = self._detection.levels()
-            out.append(
-                Verdict("fault" if first else "update", row.time, since, levels, (one.signal,),
-                        (candidate,), message=f"{one.text}, since {moment(one.since)}")
-            )  # fmt: skip
+            others = sorted(before & set(self._checks.active))
+            which = tuple(Candidate(s, None, "", 1.0 / (1 + len(others)))
+                          for s in (*others, one.signal))  # fmt: skip
+            message = f"{one.text}, since {moment(one.since)}"
+            message += f", beside {listed(others, 'and')}" if others else ""
+            group = () if others else (one.signal,)
+            event, levels = "fault" if first else "update", self._detection.levels()
+            out.append(Verdict(event, row.time, since, levels, group, which, message=message))
             before.add(one.signal)
         if before and not self._checks.active and not self._detection.alarmed:
             message = f"{listed(sorted(before), 'and')} as while the machine was well"

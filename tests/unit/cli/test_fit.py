@@ -14,7 +14,10 @@ import pytest
 import bondgraph as package
 from bondgraph import Log
 from bondgraph.cli.fit import _fits
+from bondgraph.runtime.diagnosis.calibration import tune
+from bondgraph.runtime.diagnosis.errors_in_variables import Wanted
 from bondgraph.runtime.diagnosis.fitted import Left, Span
+from bondgraph.runtime.diagnosis.parameter_fit import fit
 from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.log_file import write_log
 from tests.unit.cli.conftest import Command
@@ -239,6 +242,26 @@ def test_a_model_without_a_parameter_to_fit_says_so(bondgraph: Command, folder: 
     done = bondgraph("fit", "c.bg", "log.csv")
     assert done.status == 1
     assert "give one to a parameter" in done.err
+
+
+@pytest.mark.parametrize("command", ["fit", "tune"])
+def test_a_log_without_a_row_is_named(bondgraph: Command, folder: Path, command: str) -> None:
+    (folder / "bare.csv").write_text("t,U,y,on\n")
+    done = bondgraph(command, "c.bg", "log.csv", "bare.csv")
+    assert done.status == 1
+    assert "bare.csv: no samples: there are columns, and no rows below them" in done.err
+    assert "told" not in done.err and "Traceback" not in done.err
+
+
+def test_no_pieces_of_logs_are_too_short() -> None:
+    """As a program may hand them over, all of whose samples were thrown away."""
+    made = package.compile(text=MODEL, rate=1000.0)
+    engine, empty = made.engine(), np.empty((0, 2))
+    with pytest.raises(ValueError, match="too short to fit parameters"):
+        fit(engine, [], Wanted(("R",)), made.diagnosis_model, {})
+    for logs in ([], [empty]):
+        with pytest.raises(ValueError, match="nothing can be learned"):
+            tune(engine, made.diagnosis_model, logs, made.program.digest, 1.0)
 
 
 @pytest.mark.parametrize("command", ["fit", "tune"])

@@ -198,3 +198,21 @@ def test_a_pair_that_was_told_is_not_told_again_after_a_restart() -> None:
     more = second.update(t[half:], engine.run(samples[half:]), samples[half:])
     assert not [v for v in more if v.event == "fault"]
     assert all(set(v.pairs[0].faults) == {"R[1]", "R[3]"} for v in more if v.pairs)
+
+
+def test_two_sensors_that_are_noisy_at_once_are_both_named() -> None:
+    """Each may be why the other one is, as behind a controller: the second one is not it alone."""
+
+    def noisy(t: np.ndarray, samples: np.ndarray) -> None:
+        draw = np.random.default_rng(8)
+        for column, since in ((1, 60.0), (4, 63.0)):
+            late = (t >= since) & (t < 66.0)
+            samples[late, column] += 0.5 * draw.standard_normal(int(late.sum()))
+
+    said = [v for v in _watched(5, {}, read=noisy) if v.candidates and "noise" in v.message]
+    first, then = said
+    assert first.group == ("y1",)
+    assert [c.fault for c in first.candidates] == ["y1"] and 60.0 < first.time < 61.0
+    assert then.event == "update" and then.group == () and 63.0 < then.time < 66.0
+    assert [(c.fault, c.probability) for c in then.candidates] == [("y1", 0.5), ("i", 0.5)]
+    assert then.message.endswith(", beside y1")
