@@ -209,7 +209,8 @@ class AcceptedFaults:
         chances = {c.fault: c.probability for c in named.candidates}
         own, told = found.hypothesis, candidate(found, chances.get(found.fault, 1.0))
         if own.held is not None:
-            return Accepted(own.held.signal, "stuck", own.held.position), told
+            position = found.change if own.held.stays else own.held.position
+            return Accepted(own.held.signal, "stuck", position), told
         if own.kind != "value":
             at = self._place[own.fault]
             if self._declared.signals[at].counts is not None:

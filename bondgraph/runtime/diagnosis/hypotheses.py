@@ -30,6 +30,9 @@ Kind = Literal["value", "offset", "gain", "drift", "start", "stuck"]
 class Stuck(NamedTuple):
     """A switch that is in one `position` whatever its `signal` tells, or a command that is lost.
 
+    Or one that is not followed any more: then that is where it was at the onset, NaN before it is
+    known which one that is.
+
     `moves` has the residuals that this moves, by what the `modes` are told to be; where they are
     told what is not among it, it may move any.
     """
@@ -38,6 +41,15 @@ class Stuck(NamedTuple):
     position: float
     modes: tuple[str, ...] = ()
     moves: Mapping[tuple[bool, ...], frozenset[str]] = MappingProxyType({})
+
+    @property
+    def stays(self) -> bool:
+        """Whether what acts stays where it was."""
+        return math.isnan(self.position)
+
+    def at(self, position: float) -> Stuck:
+        """The same where it stays at a position, if it stays."""
+        return self._replace(position=position) if self.stays else self
 
     def ever(self, residuals: Sequence[str]) -> frozenset[str]:
         """Those of some residuals that it moves in any mode."""
@@ -388,6 +400,25 @@ def _summed(table: Array, ends: npt.NDArray[np.intp]) -> Array:
     return np.asarray(add.reduceat(table, begins[begins < table.shape[1]], axis=1))
 
 
+def staying(before: Array, since: Array) -> float:
+    """Where a command was, (n,) samples before an onset and since, that is not followed any more.
+
+    Where it moves at the onset it is where it was. Where it stands there nothing would show yet: it
+    was not followed in its last step, on the way of which there may be a sample.
+
+    >>> staying(np.array([1.0, 2.0, 3.0]), np.array([4.0, 5.0]))
+    3.0
+    >>> staying(np.array([1.0, 1.0, 2.4, 3.0, 3.0]), np.array([3.0, 5.0]))
+    1.0
+    """
+    if not len(before):
+        return float(since[0]) if len(since) else math.nan
+    others = np.flatnonzero(before != before[-1])
+    if not len(others) or (len(since) and since[0] != before[-1]):
+        return float(before[-1])
+    return float(before[max(int(others[-1]) - 1, 0)])
+
+
 class Instead:
     """The residuals of a machine in which a position is `held`: told that, they should be quiet.
 
@@ -396,7 +427,7 @@ class Instead:
     """
 
     def __init__(self, bank: Bank, as_told: Bank, held: Stuck) -> None:
-        self._bank, self._as_told, self._held = bank, as_told, held
+        self._bank, self._as_told, self.held = bank, as_told, held
         place = {k.path: at for at, k in enumerate(bank.engine.signals)}
         self._at, self._modes = place[held.signal], [place[m] for m in held.modes]
         self._moved = np.zeros(len(bank.engine.residuals), dtype=np.bool_)
@@ -412,14 +443,14 @@ class Instead:
         as well.
         """
         told = samples.copy()
-        told[:, self._at] = self._held.position
+        told[:, self._at] = self.held.position
         both = [bank.rows(table, ends, lengths)
                 for bank, table in ((self._bank, told), (self._as_told, samples))]  # fmt: skip
         other, own = self._bank.batch, self._as_told.batch
         assert other is not None and own is not None
         moved = np.zeros(other.valid.shape, dtype=np.bool_)
         if len(samples):
-            moved = self._held.moved(samples[:, self._modes], self._bank.engine.residuals)
+            moved = self.held.moved(samples[:, self._modes], self._bank.engine.residuals)
             moved[0] |= self._moved
             moved = np.logical_or.accumulate(moved, axis=0)
             self._moved = moved[-1]
@@ -439,16 +470,16 @@ def hypotheses(
     units: Mapping[str, str],
     sizes: Mapping[str, float],
     switches: Mapping[str, Stuck] = MappingProxyType({}),
-    drifts: bool = False,
+    in_time: bool = False,
 ) -> tuple[Hypothesis, ...]:
     """All that may be wrong: a value for each parameter, offset and gain for each signal.
 
     `faults` are the paths that some residual sees, with the nominal value of a parameter and None
     for a signal; `sizes` is the usual size of a signal, of an encoder its speed in rad/s. Modes are
     wrong as `switches`, by the name of the fault. Where there are any, commands may be lost: that
-    is as certain in what it does, and would have to lose against them otherwise. With `drifts`
+    is as certain in what it does, and would have to lose against them otherwise. With `in_time`
     a sensor whose reading is differentiated may go away steadily: its rate is in the relation as
-    well, which no offset has.
+    well, which no offset has. And an actuator may stay where it was, whatever it is told.
     """
     signals = {k.path: k for k in engine.signals}
     found = []
@@ -471,10 +502,12 @@ def hypotheses(
             found.append(Hypothesis(path, "gain", own, _USUAL, turned, None, level))
             if switches and turned:
                 found.append(Hypothesis(path, "stuck", "", 1.0, True, Stuck(path, 0.0)))
+            if in_time and turned and counts is None:
+                found.append(Hypothesis(path, "stuck", unit, 1.0, True, Stuck(path, math.nan)))
             if counts is not None:
                 rate = _USUAL * size * counts / (2 * math.pi)
                 found.append(Hypothesis(path, "drift", "count/s", rate, turned))
-            elif drifts and not turned and signals[path].highest > 0:
+            elif in_time and not turned and signals[path].highest > 0:
                 rate = usual * engine.bandwidth / _SLOWLY
                 found.append(Hypothesis(path, "drift", f"{unit or 1}/s", rate, False))
     found += [Hypothesis(f, "stuck", "", 1.0, True, s) for f, s in switches.items()]

@@ -35,7 +35,8 @@ _KEEP = 0.95  # correlation of a fault's change between the ends of a chunk
 _CHUNK = 4  # rows in which the change is taken as a straight line, at least
 _PARTS = 15  # chunks at most
 _SAME = 1e-6  # logarithm of a probability: a smaller difference is rounding
-RARER = math.log(1000.0)  #: how much rarer two faults at once are than one of them
+#: How much rarer two faults at once are than one of them, and what acts is where it was than off.
+RARER = math.log(1000.0)
 _LEADS = 8  # faults of which pairs with every other one are looked at
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
 
@@ -491,10 +492,20 @@ def _orthogonal(rows: Array) -> Array:
 
 
 def _either(ways: Sequence[Explained]) -> Explained:
-    """A fault that is wrong by a size or held at a position: one as probable as the other."""
-    top = max(ways, key=lambda one: one.evidence)
-    weights = sum(math.exp(max(one.evidence - top.evidence, -700.0)) for one in ways)
-    return top._replace(evidence=top.evidence + math.log(weights / len(ways)))
+    """A fault that is wrong by a size or held at a position: one as probable as the other.
+
+    What stays where it was has no size, so that behind a single step of a command it would be more
+    probable than anything with one: it is taken for that much rarer, and has to show.
+    """
+    told = [one._replace(evidence=one.evidence - RARER * _stays(one)) for one in ways]
+    top = max(told, key=lambda one: one.evidence)
+    weights = sum(math.exp(max(one.evidence - top.evidence, -700.0)) for one in told)
+    others = sum(not _stays(one) for one in ways)
+    return top._replace(evidence=top.evidence + math.log(weights / max(others, 1)))
+
+
+def _stays(one: Explained) -> bool:
+    return one.hypothesis.held is not None and one.hypothesis.held.stays
 
 
 def _scaled(left: Array, last: Array) -> tuple[Array, ...]:

@@ -146,7 +146,7 @@ class Judge:
         self._best, self._two = None, OneOrTwo()
         sizes = self._sizes.found()
         found = hypotheses(
-            self._engine, model.faults, model.units, sizes, model.switches, drifts=True
+            self._engine, model.faults, model.units, sizes, model.switches, in_time=True
         )
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
         found = sized(engine, found, model.nominal, samples)

@@ -145,8 +145,13 @@ class Judgement(NamedTuple):
     off: float = 0.0
 
     def says(self, other: Judgement) -> bool:
-        """Whether it says the same, whatever the sizes."""
-        return self[:3] == other[:3]
+        """Whether it says the same, whatever the sizes: off by some, or by none as it stands.
+
+        >>> off = Judgement(("u", "R"), "u", size=0.2)
+        >>> off.says(off._replace(size=-0.1)), off.says(off._replace(size=None))
+        (True, False)
+        """
+        return self[:3] == other[:3] and (self.size is None) == (other.size is None)
 
     def grown(self, other: Judgement) -> bool:
         """Whether the same fault is half as large again as in another one, or as much smaller.
@@ -399,6 +404,9 @@ def candidate(explained: Explained, chance: float) -> Candidate:
     """A fault with the change that fits best: of the machine where it has changed."""
     held = explained.hypothesis.held
     if held is not None:  # what acts is nothing of what is told, or the other position
+        if held.stays:
+            unit, chance = explained.hypothesis.unit, round(chance, 4)
+            return Candidate(explained.fault, None, unit, chance, explained.change)
         lost = explained.fault == held.signal
         size, unit = (-100.0, "%") if lost else (None, "")
         return Candidate(explained.fault, size, unit, round(chance, 4))

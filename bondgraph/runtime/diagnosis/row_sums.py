@@ -26,6 +26,27 @@ from bondgraph.text.tuples import NamedTuple
 _SURER = 2.0
 
 
+class Moves(NamedTuple):
+    """Numbers of rows by their last samples, and averages of these rows with LAGS before them.
+
+    Both (rows, ..., residuals): of what is seen, or of what moves it.
+    """
+
+    last: Array
+    means: Array
+
+    def then(self, other: Moves) -> Moves:
+        """The same with further rows behind; what came before these is known."""
+        every = zip(self, (other.last, other.means[LAGS:]), strict=True)
+        return Moves(*[np.concatenate(both) for both in every])
+
+    @classmethod
+    def behind(cls, last: Array, means: Array, rows: int) -> Moves:
+        """The last of rows, with the averages before them; where there are none, nothing moved."""
+        means = np.concatenate([np.zeros((LAGS, *means.shape[1:])), means])
+        return cls(last[len(last) - rows :], means[len(means) - rows - LAGS :])
+
+
 class Forms(NamedTuple):
     """Which rows tell by sums, (rows, residuals), and with how much of each of the LAGS averages
     before, (rows, LAGS, residuals). The others tell by their last samples."""
@@ -33,18 +54,19 @@ class Forms(NamedTuple):
     sums: Mask
     before: Array
 
-    def of(self, last: Array, means: Array) -> Array:
-        """From last samples, (rows, n, residuals), and averages of LAGS more rows before.
+    def of(self, moves: Moves) -> Array:
+        """What rows tell of (rows, n, residuals).
 
         >>> forms = Forms(np.array([[True], [False]]), np.full((2, LAGS, 1), 0.5))
-        >>> last, means = np.full((2, 1, 1), 9.0), np.arange(6.0).reshape(6, 1, 1)
-        >>> forms.of(last, means).ravel().tolist()  # 4 + (3 + 2 + 1 + 0) / 2, and as it is
+        >>> moves = Moves(np.full((2, 1, 1), 9.0), np.arange(6.0).reshape(6, 1, 1))
+        >>> forms.of(moves).ravel().tolist()  # 4 + (3 + 2 + 1 + 0) / 2, and as it is
         [7.0, 9.0]
         """
+        means = moves.means
         found = means[LAGS:].copy()
         for lag in range(LAGS):
             found += self.before[:, None, lag] * means[LAGS - 1 - lag : len(means) - 1 - lag]
-        return np.where(self.sums[:, None], found, last)
+        return np.where(self.sums[:, None], found, moves.last)
 
 
 class Told(NamedTuple):
@@ -77,13 +99,14 @@ def told(before: Sequence[Row], rows: Sequence[Row], limits: Sequence[Array]) ->
     means = _averages(before[-LAGS:], rows)
     forms = _forms(means, limit)
     value, bound, doubt = (
-        forms.of(getattr(last, name)[:, None], getattr(means, name)[:, None])[:, 0]
+        forms.of(Moves(getattr(last, name)[:, None], getattr(means, name)[:, None]))[:, 0]
         for name in ("value", "bound", "doubt")
     )
     value -= np.where(forms.sums, limit.stands * (1.0 + forms.before.sum(axis=1)), 0.0)
     noise = np.where(forms.sums, limit.unit / math.sqrt(CORRELATED), limit.sigma)
     value = np.where(last.valid, value, 0.0)
-    return Told(forms, value, last.valid, bound, doubt, forms.of(last.slopes, means.slopes), noise)
+    rest = forms.of(Moves(last.slopes, means.slopes))
+    return Told(forms, value, last.valid, bound, doubt, rest, noise)
 
 
 def _averages(before: Sequence[Row], rows: Sequence[Row]) -> Average:

@@ -10,7 +10,7 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import drifting
 from bondgraph.runtime.diagnosis.history import History
-from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead, Stuck, staying
 from bondgraph.runtime.diagnosis.isolation import (
     RARER,
     Case,
@@ -23,7 +23,7 @@ from bondgraph.runtime.diagnosis.isolation import (
 from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.noise import left_for_drift
 from bondgraph.runtime.diagnosis.row_averages import LAGS
-from bondgraph.runtime.diagnosis.row_sums import Told, told
+from bondgraph.runtime.diagnosis.row_sums import Moves, Told, told
 from bondgraph.runtime.diagnosis.rows import CORRELATED, Row
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
@@ -72,25 +72,10 @@ class _Begun(NamedTuple):
 
     onset: _Onset
     numbers: Sequence[int]
-    moves: _Moves
+    moves: Moves
     bank: Bank
     bent: Mapping[int, float]
     held: Mapping[int, _Held]
-
-
-class _Moves(NamedTuple):
-    """Slopes of some hypotheses: at the ends of rows, and averages of rows with LAGS before them.
-
-    Both (rows, hypotheses, residuals).
-    """
-
-    last: Array
-    means: Array
-
-    def then(self, other: _Moves) -> _Moves:
-        """The same with further rows behind."""
-        return _Moves(*[np.concatenate([a, b]) for a, b in
-                        zip(self, (other.last, other.means[LAGS:]), strict=True)])  # fmt: skip
 
 
 class _Held(NamedTuple):
@@ -98,7 +83,7 @@ class _Held(NamedTuple):
     `moves`, and their slopes; and which are valid, (rows, residuals)."""
 
     beside: Instead
-    moves: _Moves
+    moves: Moves
     sound: Mask
 
 
@@ -152,10 +137,11 @@ class SinceOnset:
         self._waiting: list[tuple[Row, Array]] = []  # with the limits of each residual
         self._past: list[tuple[Row, Array]] = []
         self._rows: list[tuple[Row, Array]] = []  # without their samples
-        self._moves = _Moves(np.zeros((0, *shape)), np.zeros((LAGS, *shape)))
+        self._moves = Moves(np.zeros((0, *shape)), np.zeros((LAGS, *shape)))
         self._held: dict[int, _Held] = {}  # by the number of what is held
         self._unsaid = np.zeros((_GROWS, shape[1]), dtype=bool)
         self._slopes = np.zeros(shape)  # of the last row
+        self._others: dict[int, Array] = {}  # what residuals would be above that, if held
         self._told = np.zeros((0, len(engine.signals)))  # samples of the last row
         self._place = {k.path: at for at, k in enumerate(engine.signals)}
         self._again = 0  # rows with which secants are looked for again
@@ -185,7 +171,11 @@ class SinceOnset:
         moved = np.zeros(self._slopes.shape[1])
         for hypothesis, change in faults:
             k, held = self._all.index(hypothesis), hypothesis.held
-            if held is not None:
+            if held is not None and held.stays:
+                if k not in self._held:
+                    return None
+                moved -= self._others[k]
+            elif held is not None:
                 told = self._told[:, self._place[held.signal]]
                 moved += math.nan if (told != held.position).any() else 0.0
             elif k in self._sized:
@@ -202,7 +192,7 @@ class SinceOnset:
         k = None if fault is None else self._all.index(fault.hypothesis)
         self._bank = self._bank.part([at for at, own in enumerate(self._sized) if own == k])
         self._sized = [own for own in self._sized if own == k]
-        self._held = {}
+        self._held = {j: own for j, own in self._held.items() if j == k}
 
     def explained(self, history: History) -> list[Explained]:
         """How well each fault explains the rows; raises LinAlgError as `explain` does."""
@@ -280,7 +270,7 @@ class SinceOnset:
         for _ in range(_TOGETHER if len(self._past) == len(self._rows) else 0):
             changes = self._secants(dict(zip(own, best.two.changes, strict=True)))
             anew = [self._begun([k], self._tried[k][0], changes).moves for k in own]
-            slopes = [seen.forms.of(*moves) for moves in anew]
+            slopes = [seen.forms.of(moves) for moves in anew]
             case = Case(two.hypotheses, np.concatenate(slopes, axis=1))
             if not (np.abs(case.slopes) < _HUGE).all():
                 break
@@ -293,7 +283,15 @@ class SinceOnset:
     def _found(self, history: History) -> list[Explained]:
         """How well each fault explains the rows as they are known now."""
         rows, (others,) = self._weighed(self._told_by(), [self._held])
-        return Evidence(rows, history).explained([Case(self._all, rows.slopes, others)])[0]
+        found = Evidence(rows, history).explained([Case(self._all, rows.slopes, others)])[0]
+        return [self._placed(one) for one in found]
+
+    def _placed(self, one: Explained) -> Explained:
+        """Of what stays where it was its place is told, as there is no change."""
+        held = one.hypothesis.held
+        if held is None or not held.stays:
+            return one
+        return one._replace(change=self._held[self._all.index(one.hypothesis)].beside.held.position)
 
     def _told_by(self) -> Told:
         """What the rows tell, as it is known by now."""
@@ -307,7 +305,7 @@ class SinceOnset:
 
         All are compared by the same rows, at any onset.
         """
-        slopes = seen.forms.of(*self._moves)
+        slopes = seen.forms.of(self._moves)
         rows = Rows(seen.value, seen.weights(seen.value), seen.rest, slopes, seen.forms.sums)
         found = [{k: _instead(seen, rows, own) for k, own in held.items()} for held in cases]
         every = [one for others in found for one in others.values()]
@@ -340,7 +338,7 @@ class SinceOnset:
             rows, others = self._weighed(seen, [
                 {one.numbers.index(k): told for k, told in one.held.items()} for one in begun
             ])  # fmt: skip
-            cases = [Case([self._all[k] for k in one.numbers], seen.forms.of(*one.moves), told)
+            cases = [Case([self._all[k] for k in one.numbers], seen.forms.of(one.moves), told)
                      for one, told in zip(begun, others, strict=True)]  # fmt: skip
             explained = Evidence(rows, history).explained(cases)
             for trial, case in zip(begun, explained, strict=True):
@@ -396,13 +394,12 @@ class SinceOnset:
         for k in own:
             position = self._all[k].held
             if position is not None:
-                other, told = (
-                    Bank(copied(before), self._tolerated, self._nominal, begin) for _ in range(2)
-                )
-                beside = Instead(other, told, position)
+                place = self._place[position.signal]
+                stays = staying(self._healthy[:count, place], samples[:, place])
+                beside = self._told_else(before, begin, position.at(stays), position.stays)
                 last, means, sound = beside.rows(samples, ends, lengths)
                 rows = len(self._past)
-                held[k] = _Held(beside, self._behind(last, means), sound[len(sound) - rows :])
+                held[k] = _Held(beside, Moves.behind(last, means, rows), sound[len(sound) - rows :])
         sized = [k for k in own if k not in held]
         known = [self._all[k] for k in sized]
         bent = {at: changes[k] for at, k in enumerate(sized) if k in changes}
@@ -411,17 +408,26 @@ class SinceOnset:
         except ValueError:  # the model cannot take one of them
             bent, bank = {}, self._banked(before, known, begin, {})
         shape = len(own), self._slopes.shape[1]
-        moves = _Moves(*[np.zeros((n + len(self._past), *shape)) for n in (0, LAGS)])
+        moves = Moves(*[np.zeros((n + len(self._past), *shape)) for n in (0, LAGS)])
         if onset.smooth and count:
             bank.onset(bank.run(past, [count - 1])[0])
         if sized and self._past:
             which = [k not in held for k in own]
-            found = self._behind(*bank.rows(samples, ends, lengths))
+            found = Moves.behind(*bank.rows(samples, ends, lengths), len(self._past))
             moves.last[:, which], moves.means[:, which] = found
         elif sized:
             bank.run(healthy, ())
         bent = {sized[at]: x for at, x in bent.items()}
         return _Begun(onset, own, moves, bank, bent, held)
+
+    def _told_else(
+        self, before: Engine, begin: Array | None, held: Stuck, stays: bool
+    ) -> Instead:
+        """The programs told a position. Where what acts `stays`, that is near what they are told,
+        and tolerances do the same in both."""
+        known = () if stays else self._tolerated
+        other, told = (Bank(copied(before), known, self._nominal, begin) for _ in range(2))
+        return Instead(other, told, held)
 
     def _since(self, count: int) -> tuple[Array, list[int], list[int]]:
         """Samples behind so many of the healthy ones: where rows end, how many each has in all."""
@@ -437,12 +443,6 @@ class SinceOnset:
     def _whole(self, lengths: Sequence[int], first: bool = True) -> list[int]:
         """How many samples rows have, the first with the healthy ones."""
         return [n + self._own * (first and k == 0) for k, n in enumerate(lengths)]
-
-    def _behind(self, last: Array, means: Array) -> _Moves:
-        """Of rows that end with the past: those that are compared, and LAGS of averages before."""
-        rows = len(self._past)
-        means = np.concatenate([np.zeros((LAGS, *means.shape[1:])), means])
-        return _Moves(last[len(last) - rows :], means[len(means) - rows - LAGS :])
 
     def _take(self, begun: _Begun, numbers: Sequence[int]) -> None:
         """Go on with some of the hypotheses that have begun so."""
@@ -472,14 +472,15 @@ class SinceOnset:
         last[:, self._sized], means[LAGS:, self._sized] = self._bank.rows(samples, ends, lengths)
         self._slopes, self._told = last[-1].copy(), rows[-1][0].samples
         left = MOST - len(self._rows)
+        for k, own in self._held.items():
+            moved, total, sound = own.beside.rows(samples, ends, lengths)
+            total = np.concatenate([np.zeros((LAGS, *total.shape[1:])), total])
+            more = Moves(moved[:left], total[: LAGS + left])
+            sound = np.concatenate([own.sound, sound[:left]])
+            self._held[k] = _Held(own.beside, own.moves.then(more), sound)
+            self._others[k] = moved[-1, 0]
         if left:
-            self._moves = self._moves.then(_Moves(last[:left], means[: LAGS + left]))
-            for k, own in self._held.items():
-                moved, total, sound = own.beside.rows(samples, ends, lengths)
-                total = np.concatenate([np.zeros((LAGS, *total.shape[1:])), total])
-                more = _Moves(moved[:left], total[: LAGS + left])
-                sound = np.concatenate([own.sound, sound[:left]])
-                self._held[k] = _Held(own.beside, own.moves.then(more), sound)
+            self._moves = self._moves.then(Moves(last[:left], means[: LAGS + left]))
             self._rows += [(row._replace(samples=row.samples[:0]), x) for row, x in rows[:left]]
             self._past += rows[: max(0, BENT - len(self._past))]
 
@@ -535,7 +536,7 @@ class SinceOnset:
         for onset in dict.fromkeys(self._tried[k][0] for k in changes):
             own = [k for k in changes if self._tried[k][0] == onset]
             begun = self._begun(own, onset, changes)
-            slopes = seen.forms.of(*begun.moves)
+            slopes = seen.forms.of(begun.moves)
             sound = {k: at for at, k in enumerate(own)
                      if (np.abs(slopes[:, at]) < _HUGE).all()}  # fmt: skip
             cases = [Case([self._all[k]], slopes[:, [at]]) for k, at in sound.items()]
@@ -567,12 +568,14 @@ def _instead(seen: Told, rows: Rows, held: _Held) -> Rows:
 
     Residuals that have no value yet, in the first rows, have no weight (NaN) in any.
     """
-    moved = seen.forms.of(*held.moves)
+    moved = seen.forms.of(held.moves)
     value = rows.value + moved[:, 0]
     weight = seen.weights(value)
     weight[rows.weight == 0] = 0.0
     weight[:_GROWS][~held.sound[:_GROWS] & (rows.weight[:_GROWS] > 0)] = np.nan
-    return Rows(value, weight, rows.rest + moved[:, 1:], rows.slopes[:, :0], rows.alone)
+    rest = rows.rest.copy()
+    rest[:, : moved.shape[1] - 1] += moved[:, 1:]
+    return Rows(value, weight, rest, rows.slopes[:, :0], rows.alone)
 
 
 def _joined(rows: Sequence[tuple[Row, Array]]) -> tuple[Array, list[int]]:

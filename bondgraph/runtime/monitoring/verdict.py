@@ -22,13 +22,15 @@ class Candidate(NamedTuple):
     """A fault that may be the one, with the change that would explain the residuals.
 
     `size` is the estimated change in `unit`, None where it cannot be estimated; `probability` is
-    0 to 1, and that of all candidates of a verdict together is 1.
+    0 to 1, and that of all candidates of a verdict together is 1. A command that is not obeyed any
+    more has no size: what acts `stands` where it is, in the unit.
     """
 
     fault: str
     size: float | None
     unit: str
     probability: float
+    stands: float | None = None
 
 
 class Pair(NamedTuple):
@@ -77,15 +79,20 @@ def to_json(verdict: Verdict, number: int) -> str:
         "time": _finite(verdict.time),
         "residuals": {name: _finite(value) for name, value in verdict.residuals.items()},
         "group": list(verdict.group),
-        "candidates": [
-            {**c._asdict(), "size": None if c.size is None else _finite(c.size)}
-            for c in verdict.candidates
-        ],
+        "candidates": [_one(c) for c in verdict.candidates],
         "pairs": [{**p._asdict(), "sizes": [_finite(x) for x in p.sizes]} for p in verdict.pairs],
     }
     if verdict.account is None:
         del line["account"]
     return json_text(line)
+
+
+def _one(candidate: Candidate) -> dict[str, Any]:
+    found = candidate._asdict()
+    found["size"] = None if candidate.size is None else _finite(candidate.size)
+    if candidate.stands is None:
+        del found["stands"]
+    return found
 
 
 def from_json(line: str) -> tuple[int, Verdict]:
@@ -110,7 +117,8 @@ def from_record(record: dict[str, Any]) -> tuple[int, Verdict]:
         {n: math.inf if v is None else float(v) for n, v in record["residuals"].items()},
         tuple(record["group"]),
         tuple(
-            Candidate(str(c["fault"]), c["size"], str(c["unit"]), float(c["probability"]))
+            Candidate(str(c["fault"]), c["size"], str(c["unit"]), float(c["probability"]),
+                      c.get("stands"))
             for c in record["candidates"]
         ),
         str(record["message"]),
@@ -221,6 +229,8 @@ def _candidate(candidate: Candidate) -> str:
     words = f"{100 * candidate.probability:.0f} %"
     if candidate.size is not None:
         words += f", {candidate.size:+.3g} {candidate.unit}".rstrip()
+    if candidate.stands is not None:
+        words += f", stands at {candidate.stands:.3g} {candidate.unit}".rstrip()
     return f"{candidate.fault} ({words})"
 
 

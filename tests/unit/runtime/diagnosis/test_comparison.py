@@ -178,7 +178,7 @@ def test_a_drift_is_in_a_relation_with_its_rate_and_with_what_it_has_come_to() -
     """C r + G r t of a drift r t of the thermometer, behind the filter; an offset has no rate."""
     room = Compilation(Source("room.bg", _ROOM), options=bondgraph.Options(rate=0.1))
     engine, facts = room.engine(), room.diagnosis_model
-    found = hypotheses(engine, facts.faults, facts.units, {}, drifts=True)
+    found = hypotheses(engine, facts.faults, facts.units, {}, in_time=True)
     assert [h.fault for h in found if h.kind == "drift"] == ["T"]
     (drift,) = [h for h in found if h.kind == "drift"]
     columns = {"P": 500.0, "To": 280.0, "T": 290.0}

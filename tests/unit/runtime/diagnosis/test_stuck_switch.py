@@ -265,3 +265,72 @@ def test_its_evidence_is_that_of_a_healthy_machine_told_otherwise(
 
     assert found.evidence == pytest.approx(density(other, rest_other) - density(told, rest))
     assert (found.change, found.deviation) == (1.0, 0.0)
+
+
+VALVE = """bg 1
+model Valve {
+    param P = 2e5 Pa +- 3%
+    param k = 2e-6 m^3/s.Pa^-0.5 +- 3%
+    input u
+    Se:supply = P
+    1:line { <- supply; -> R:valve { f = k*u*ssqrt(e) }; -> Df:q; -> Se:back = 5e4 }
+}
+"""
+
+
+def _valve(seed: int, steps: bool, stuck: float) -> list[Verdict]:
+    """A valve that is not moved any more from 300 s on, in steps or in a course; q in the log."""
+    c = bondgraph.compile(text=VALVE, rate=2.0, bandwidth=0.5)
+    t, draw = np.arange(1600) / 2.0, np.random.default_rng(seed)
+    told = 0.5 + 0.2 * np.sin(2 * np.pi * t / 97.0)
+    if steps:
+        told = np.repeat(draw.permutation(np.linspace(0.3, 0.9, 40)), 40)
+    late = np.flatnonzero(t >= stuck)
+    true = told.copy()
+    true[late] = told[late[0]]
+    q = 0.99 * 2e-6 * true * np.sqrt(2e5 * 1.01 - 5e4)
+    columns = {"u": told, "q": q + 2e-6 * draw.standard_normal(len(t))}
+    engine = c.engine()
+    samples = np.column_stack([columns[k.path] for k in engine.signals])
+    diagnosis, said = c.diagnosis(engine), []
+    for k in range(0, len(t), 250):
+        said += diagnosis.update(t[k : k + 250], engine.run(samples[k : k + 250]),
+                                 samples[k : k + 250])  # fmt: skip
+    return said
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("steps", [True, False])
+def test_an_actuator_that_stays_where_it_was_is_told_with_its_place(
+    seed: int, steps: bool
+) -> None:
+    """300 s is within a step of the command; it was said to be a parameter, or off by some size."""
+    said = _valve(seed, steps, 300.0)
+    assert not [v for v in said if v.event == "fault" and v.time < 300.0]
+    last = [v for v in said if v.event == "update"][-1]
+    best = last.candidates[0]
+    draw = np.random.default_rng(seed)
+    told = draw.permutation(np.linspace(0.3, 0.9, 40))[15] if steps else 0.5 + 0.2 * np.sin(
+        2 * np.pi * 300.0 / 97.0
+    )  # fmt: skip
+    assert best.fault == "u" and best.probability > 0.6 and best.size is None
+    assert best.stands == pytest.approx(told, abs=0.02)
+    assert f"stands at {best.stands:.3g}" in described(last)
+    assert from_json(to_json(last, 1)) == (1, last)
+    # where the command passes by this place nothing shows, and the alarm is not over
+    assert not [v for v in said if v.event == "cleared"]
+
+
+def test_an_actuator_that_is_off_by_a_share_is_not_said_to_stand() -> None:
+    c = bondgraph.compile(text=VALVE, rate=2.0, bandwidth=0.5)
+    t, draw = np.arange(1600) / 2.0, np.random.default_rng(9)
+    told = 0.5 + 0.2 * np.sin(2 * np.pi * t / 97.0)
+    q = 2e-6 * told * np.where(t < 300.0, 1.0, 0.8) * np.sqrt(1.5e5)
+    engine = c.engine()
+    columns = {"u": told, "q": q + 2e-6 * draw.standard_normal(len(t))}
+    samples = np.column_stack([columns[k.path] for k in engine.signals])
+    said = c.diagnosis(engine).update(t, engine.run(samples), samples)
+    last = [v for v in said if v.event == "update"][-1]
+    assert all(one.stands is None for one in last.candidates)
+    (own,) = [one for one in last.candidates if one.fault == "u"]
+    assert own.size == pytest.approx(-20.0, abs=2.0) and own.unit == "%"
