@@ -805,7 +805,7 @@ class Compilation:
                     f" (`--rate {tuning.rate:.9g}` takes them at that)"
                 )
             if tuning.model != self.program.digest:
-                raise ValueError("it is of another model, or of other options")
+                raise ValueError("it is of another model, or of other options or parameters")
             if abs(tuning.bandwidth / engine.bandwidth - 1) > 1e-9:
                 raise ValueError(f"it is for a filter of {tuning.bandwidth:g} rad/s")
         return Diagnosis(engine, self.diagnosis_model, tuning)
@@ -918,10 +918,10 @@ class Compilation:
     def tuned(self, tuning: Tuning) -> Compilation:
         """The same for the filter of a tuning, with its limits in the code.
 
-        Raises ValueError for a tuning of another model, of other options or another rate.
+        Raises ValueError for a tuning of another model, of other options, parameters or rate.
         """
         if tuning.model != self.program.digest:
-            raise ValueError("it is of another model, or of other options")
+            raise ValueError("it is of another model, or of other options or parameters")
         return self.with_options(bandwidth=tuning.bandwidth, tuning=tuning)
 
     @cached_property
