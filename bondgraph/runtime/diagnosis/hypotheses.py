@@ -408,9 +408,10 @@ def staying(before: Array, since: Array) -> float:
 
     >>> staying(np.array([1.0, 2.0, 3.0]), np.array([4.0, 5.0]))
     3.0
-    >>> staying(np.array([1.0, 1.0, 2.4, 3.0, 3.0]), np.array([3.0, 5.0]))
+    >>> staying(np.array([1.0, 1.0, 2.4, math.nan, 3.0, 3.0]), np.array([3.0, 5.0]))
     1.0
     """
+    before, since = before[np.isfinite(before)], since[np.isfinite(since)]
     if not len(before):
         return float(since[0]) if len(since) else math.nan
     others = np.flatnonzero(before != before[-1])
