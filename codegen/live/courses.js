@@ -6,8 +6,11 @@ const KEPT = 300; // entries
 const LONG = 100; // lines of a course
 const moment = (t) => (t === null ? "" : `${t.toFixed(2)} s`);
 
-// Fault, size and probability of a candidate.
-export const sized = ([fault, size, unit]) => [fault, size === null ? "" : `${size > 0 ? "+" : ""}${number(size, 3)}${named(unit) ? ` ${unit}` : ""}`];
+// A candidate with its size, or where it stands that does not follow any more.
+export const sized = ([fault, size, unit, , stands]) => {
+  const known = size ?? stands ?? null, sign = size === null ? "stands at " : size > 0 ? "+" : "";
+  return [fault, known === null ? "" : `${sign}${number(known, 3)}${named(unit) ? ` ${unit}` : ""}`];
+};
 
 const line = (v) => make("li", { class: v.event }, make("span", { class: "at" }, moment(v.time)), make("span", { class: "whose" }, v.whose), make("span", { class: "event" }, v.event),
   make("div", { class: "text" }, v.message, candidates(v)));

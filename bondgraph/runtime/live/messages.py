@@ -117,7 +117,7 @@ class Messages:
                 "group": list(verdict.group),
                 "candidates": [
                     [c.fault, None if c.size is None else short(c.size), c.unit,
-                     round(c.probability, 4)]
+                     round(c.probability, 4), None if c.stands is None else short(c.stands)]
                     for c in verdict.candidates
                 ],
                 "message": verdict.message or described(verdict),

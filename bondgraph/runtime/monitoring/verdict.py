@@ -159,6 +159,9 @@ def described(verdict: Verdict) -> str:
     >>> print(described(Verdict("fault", 5.2, 5.03, {"r2": 3.14}, ("J", "f"), (
     ...     Candidate("f", 2.38e-6, "N.m.s/rad", 0.8), Candidate("J", None, "kg.m^2", 0.2)))))
     J or f since 5.030 s: f (80 %, +2.38e-06 N.m.s/rad) or J (20 %); r2 at 3.1 times its threshold
+    >>> print(described(Verdict("update", 5.2, 5.03, {"r2": 3.14}, ("U",), (
+    ...     Candidate("U", None, "V", 1.0, stands=6.7),))))
+    U since 5.030 s: U (100 %, stands at 6.7 V); r2 at 3.1 times its threshold
 
     What no sample tells, many rows do:
 
@@ -170,7 +173,7 @@ def described(verdict: Verdict) -> str:
     else:
         text = "not clear yet which fault," if verdict.candidates else "an unknown fault"
     text += _since(verdict)
-    sized = any(c.size is not None for c in verdict.candidates)
+    sized = any(c.size is not None or c.stands is not None for c in verdict.candidates)
     apart = len({c.probability for c in verdict.candidates}) > 1
     if apart or sized or 0 < len(verdict.candidates) < len(verdict.group):
         text += ": " + listed([_candidate(c) for c in verdict.candidates], "or", 5)

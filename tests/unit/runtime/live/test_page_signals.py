@@ -315,7 +315,7 @@ def test_what_is_told_anew_is_neither_twice_nor_lost(told: Page) -> None:
 
 
 def test_a_course_has_what_else_was_said_and_is_bounded(told: Page) -> None:
-    among = [["R", 0.5, "Ohm", 0.8], ["L", None, "", 0.2]]
+    among = [["R", 0.5, "Ohm", 0.8, None], ["U", None, "V", 0.15, 6.7], ["L", None, "", 0.05, None]]
     fault = {"since": 9.5, "candidates": among}
     _tell(told, _verdict("start", 1), _verdict("fault", 10, **fault), _verdict("gap", 11),
           _verdict("gap", 12, "virtual"))  # fmt: skip
@@ -323,7 +323,7 @@ def test_a_course_has_what_else_was_said_and_is_bounded(told: Page) -> None:
     assert told.tab.run(f"{course}.map((e) => e.className)") == ["fault", "gap"]
     assert told.tab.run("[...document.querySelectorAll('#verdicts > li')].map((e) =>"
                         " e.className)") == ["gap", "alarm", "start"]  # fmt: skip
-    assert told.text(".course .among") == "R +0.5 Ohm 80 %L 20 %"
+    assert told.text(".course .among") == "R +0.5 Ohm 80 %U stands at 6.7 V 15 %L 5 %"
     assert told.text(".alarm summary .text") == "most likely R"
     _tell(told, *(_verdict("update", 20 + k, **fault) for k in range(150)))
     assert told.tab.run(f"{course}.length") == 101  # 100 of 152, and a line that says so
