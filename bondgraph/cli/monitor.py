@@ -285,6 +285,10 @@ def _printer(lines: bool) -> Callable[[int, Verdict], None]:
 
     colours = _COLOURS if console.coloured(sys.stdout) else {}
 
+    def say(line: str) -> None:
+        # in one piece: without a buffer a line feed is written by itself, and a kill comes between
+        print(f"{line}\n", end="", flush=True)
+
     def text(number: int, verdict: Verdict) -> None:
         line = to_text(verdict)
         colour = colours.get(verdict.event)
@@ -292,10 +296,10 @@ def _printer(lines: bool) -> Callable[[int, Verdict], None]:
             styled(sys.stdout, f"\x1b[{colour}m{printable(line)}\x1b[0m\n")
             sys.stdout.flush()
         else:
-            print(line, flush=True)
+            say(line)
 
     def json(number: int, verdict: Verdict) -> None:
-        print(to_json(verdict, number), flush=True)
+        say(to_json(verdict, number))
 
     return json if lines else text
 
