@@ -405,8 +405,9 @@ def candidate(explained: Explained, chance: float) -> Candidate:
     held = explained.hypothesis.held
     if held is not None:  # what acts is nothing of what is told, or the other position
         if held.stays:
-            unit, chance = explained.hypothesis.unit, round(chance, 4)
-            return Candidate(explained.fault, None, unit, chance, explained.change)
+            place = explained.change if math.isfinite(explained.change) else None
+            unit = explained.hypothesis.unit
+            return Candidate(explained.fault, None, unit, round(chance, 4), place)
         lost = explained.fault == held.signal
         size, unit = (-100.0, "%") if lost else (None, "")
         return Candidate(explained.fault, size, unit, round(chance, 4))

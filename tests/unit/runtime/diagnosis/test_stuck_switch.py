@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from pathlib import Path
 
@@ -12,7 +13,8 @@ import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Stuck
-from bondgraph.runtime.diagnosis.isolation import Rows, explain
+from bondgraph.runtime.diagnosis.isolation import Explained, Rows, explain
+from bondgraph.runtime.diagnosis.naming import candidate
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.monitoring.verdict import (
     Verdict,
@@ -319,6 +321,15 @@ def test_an_actuator_that_stays_where_it_was_is_told_with_its_place(
     assert from_json(to_json(last, 1)) == (1, last)
     # where the command passes by this place nothing shows, and the alarm is not over
     assert not [v for v in said if v.event == "cleared"]
+
+
+def test_an_input_that_never_had_a_number_stands_nowhere() -> None:
+    """JSON has no number for that, and the watch would end."""
+    stays = Hypothesis("u", "stuck", "V", 1.0, True, Stuck("u", math.nan))
+    places = [6.7, math.nan]
+    found = [candidate(Explained("u", 1.0, stays, place, 0.0), 0.5) for place in places]
+    assert [one.stands for one in found] == [6.7, None]
+    assert '"stands"' not in to_json(Verdict("update", 1.0, candidates=(found[1],)), 1)
 
 
 def test_an_actuator_that_is_off_by_a_share_is_not_said_to_stand() -> None:
