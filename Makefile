@@ -73,7 +73,7 @@ wheel: $(VENV)/dev.stamp ## build the wheel, install it elsewhere, compile a mod
 
 # What the bench compares with, each apart from all else: it brings packages of its own. One needs
 # a newer Python than this project; without it the bench says that it did not compare.
-$(VENV)/bench.stamp: tests/bench/toolbox_requirements.txt tests/bench/newer_requirements.txt $(VENV)/dev.stamp
+$(VENV)/bench.stamp: tests/bench/toolbox_requirements.txt tests/bench/newer_requirements.txt | $(BIN)/python
 	$(BIN)/python -m venv $(VENV)/toolbox
 	-$(VENV)/toolbox/bin/python -m pip --disable-pip-version-check --quiet install -r $<
 	-for p in python3.14 python3.13; do $$p -c '' 2>/dev/null || continue; $$p -m venv $(VENV)/newer && \
@@ -82,12 +82,12 @@ $(VENV)/bench.stamp: tests/bench/toolbox_requirements.txt tests/bench/newer_requ
 	@touch $@
 
 # Other generators of C, some 600 MB; the short bench goes without.
-$(VENV)/generators.stamp: tests/bench/generators_requirements.txt $(VENV)/dev.stamp
+$(VENV)/generators.stamp: tests/bench/generators_requirements.txt | $(BIN)/python
 	$(BIN)/python -m venv $(VENV)/generators
 	-$(VENV)/generators/bin/python -m pip --disable-pip-version-check --quiet install -r $<
 	@touch $@
 
-bench: $(VENV)/bench.stamp $(if $(SHORT),,$(VENV)/generators.stamp) ## medians of the times that matter, with their ratios
+bench: $(VENV)/dev.stamp $(VENV)/bench.stamp $(if $(SHORT),,$(VENV)/generators.stamp) ## medians of the times that matter, with their ratios
 	BONDGRAPH_BENCH_PYTHON=$(VENV)/toolbox/bin/python \
 	BONDGRAPH_BENCH_PEERS=$(VENV)/toolbox:$(VENV)/newer:$(VENV)/generators \
 	$(BIN)/python -m tests.bench $(if $(SHORT),--short)

@@ -95,7 +95,10 @@ def main() -> None:
     print()
     toolbox.report(1 if short else 7)
     print()
-    peers.report((1, 5, 100) if short else (1, 2, 5, 10, 20, 50, 200, 1000))
+    if short:
+        peers.report((1, 5, 100), limit=5.0)
+    else:
+        peers.report((1, 2, 5, 10, 20, 50, 200, 1000), limit=20.0)
     print()
     growth.report(short)
 

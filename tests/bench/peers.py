@@ -15,8 +15,6 @@ from typing import NamedTuple
 
 from tests.bench import growth
 
-LIMIT = 20.0  # seconds
-
 #: Run by the interpreter of the other tool: the number of cells in, seconds out.
 _BONDGRAPHTOOLS = """
 import sys, time
@@ -81,11 +79,11 @@ def interpreter(peer: Peer) -> str | None:
     return None
 
 
-def seconds(python: str, peer: Peer, cells: int) -> float | None:
+def seconds(python: str, peer: Peer, cells: int, limit: float) -> float | None:
     """What the tool takes for a ladder, its imports excluded; None if it passes the limit."""
     command = [python, "-W", "ignore", "-c", peer.program, str(cells)]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=LIMIT)
+        done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=limit)
     except subprocess.TimeoutExpired:
         return None
     return float(done.stdout.splitlines()[-1])
@@ -100,8 +98,8 @@ def ladder(cells: int) -> str:
     return "\n".join([*lines, f"    n{cells} -> De:y", "}"]) + "\n"
 
 
-def report(sizes: Sequence[int]) -> None:
-    """A table: seconds of each tool for each number of cells, until it passes the limit."""
+def report(sizes: Sequence[int], limit: float) -> None:
+    """A table: seconds of each tool for each number of cells, until it passes the limit in s."""
     found = {peer: interpreter(peer) for peer in PEERS}
     for peer, python in found.items():
         if python is None:
@@ -110,7 +108,7 @@ def report(sizes: Sequence[int]) -> None:
     if not there:
         return
     growth.stages(ladder(2))  # imports excluded, as for the others
-    print(f"Ladder of RLC cells: state equations by others, ARRs and FSM here; limit {LIMIT:.0f} s")
+    print(f"Ladder of RLC cells: state equations by others, ARRs and FSM here; limit {limit:.0f} s")
     print(f"{'cells':>8} {'here':>12} " + " ".join(f"{p.name:>24}" for p in there))
     for cells in sizes:
         start = time.perf_counter()
@@ -118,7 +116,7 @@ def report(sizes: Sequence[int]) -> None:
         own = time.perf_counter() - start
         line = f"{cells:8} {own:10.3f} s "
         for peer, python in list(there.items()):
-            took = seconds(python, peer, cells) if python else None
+            took = seconds(python, peer, cells, limit) if python else None
             if took is None:
                 there[peer] = ""
                 line += f" {'-':>24}"

@@ -120,7 +120,7 @@ def test_the_bench_says_what_it_could_not_compare(
     monkeypatch.setenv("BONDGRAPH_BENCH_PYTHON", "no-such-python")
     monkeypatch.setenv("BONDGRAPH_BENCH_PEERS", "no-such-folder")
     toolbox.report(1)
-    peers.report((1,))
+    peers.report((1,), limit=20.0)
     generators.report()
     assert capsys.readouterr().out.count("not compared") == 5
     monkeypatch.setattr(shutil, "which", lambda name: None)

@@ -20,23 +20,54 @@ NAMES = ("electric_motor", "three_tank", "induction_motor", "water_tank", "vep4_
 
 _CODES = {"": 1, "I": 2, "D": 3}
 
-#: Run by the toolbox's own interpreter: matrices in, the number of sets and seconds out.
+#: Run by the toolbox's own interpreter: a matrix a line in, its sets and seconds out. One process
+#: answers for all structures, as the toolbox takes seconds to import.
 _THEIRS = """
 import json, sys, time
 import numpy as np
 import faultdiagnosistoolbox as fdt
-given = json.load(sys.stdin)
-X = np.array(given["X"])
-none = np.zeros((len(X), 0), dtype=int)
-model = fdt.DiagnosisModel({"type": "MatrixStruc", "X": X, "F": none, "Z": none}, name="bench")
-model.MSO()
-seconds = []
-for _ in range(given["runs"]):
-    start = time.perf_counter()
-    found = model.MSO()
-    seconds.append(time.perf_counter() - start)
-print(json.dumps({"sets": sorted(sorted(map(int, m)) for m in found), "seconds": seconds}))
+for line in sys.stdin:
+    given = json.loads(line)
+    X = np.array(given["X"])
+    none = np.zeros((len(X), 0), dtype=int)
+    model = fdt.DiagnosisModel({"type": "MatrixStruc", "X": X, "F": none, "Z": none}, name="bench")
+    model.MSO()
+    seconds = []
+    for _ in range(given["runs"]):
+        start = time.perf_counter()
+        found = model.MSO()
+        seconds.append(time.perf_counter() - start)
+    sets = sorted(sorted(map(int, m)) for m in found)
+    print("\\n" + json.dumps({"sets": sets, "seconds": seconds}), flush=True)
 """
+
+
+class Toolbox:
+    """The toolbox in a process of its own, which answers while this one waits."""
+
+    def __init__(self, python: str) -> None:
+        self._process = subprocess.Popen(
+            [python, "-c", _THEIRS], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+
+    def sets(self, matrix: list[list[int]], runs: int) -> tuple[list[list[int]], list[float]]:
+        """The sets of a structure, each an ordered list of equations, and the seconds of each run.
+
+        What the toolbox itself prints is passed over.
+        """
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._process.stdin.write(json.dumps({"X": matrix, "runs": runs}) + "\n")
+        self._process.stdin.flush()
+        for line in self._process.stdout:
+            if line.startswith('{"sets"'):
+                answer = json.loads(line)
+                return answer["sets"], answer["seconds"]
+        raise RuntimeError("the toolbox ended without an answer")
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.communicate()
 
 
 def interpreter() -> str | None:
@@ -59,7 +90,7 @@ def _seconds(work: Callable[[], object], runs: int) -> list[float]:
     return seconds
 
 
-def compare(name: str, python: str, runs: int) -> tuple[int, float, float]:
+def compare(name: str, toolbox: Toolbox, runs: int) -> tuple[int, float, float]:
     """The number of sets, and the median seconds of this package and of the toolbox.
 
     Both give a list of arrays of equations, and these must be the same.
@@ -77,12 +108,9 @@ def compare(name: str, python: str, runs: int) -> tuple[int, float, float]:
     found = mso_sets(model).all()
     for _ in range(3):
         own += _seconds(lambda: mso_sets(model).arrays(), runs)
-        text = json.dumps({"X": matrix, "runs": runs})
-        command = [python, "-c", _THEIRS]
-        done = subprocess.run(command, input=text, capture_output=True, text=True, check=True)
-        answer = json.loads(done.stdout.splitlines()[-1])
-        assert answer["sets"] == sorted(map(list, found)), name
-        theirs += answer["seconds"]
+        sets, seconds = toolbox.sets(matrix, runs)
+        assert sets == sorted(map(list, found)), name
+        theirs += seconds
     return len(found), statistics.median(own), statistics.median(theirs)
 
 
@@ -93,9 +121,11 @@ def report(runs: int) -> None:
         print("MSO sets: not compared, faultdiagnosistoolbox is not installed (make bench does)")
         return
     print("MSO sets of published structures, here and by the Fault Diagnosis Toolbox:")
+    toolbox = Toolbox(python)
     for name in NAMES:
-        count, own, theirs = compare(name, python, runs)
+        count, own, theirs = compare(name, toolbox, runs)
         print(
             f"{name:28} {count:5} sets {own * 1e3:8.2f} ms  toolbox {theirs * 1e3:8.2f} ms"
             f"  {own / theirs:6.2f}x"
         )
+    toolbox.close()
