@@ -7,7 +7,7 @@ fault is found whatever its course.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Hashable, Mapping, Sequence, Set
+from collections.abc import Callable, Container, Hashable, Iterator, Mapping, Sequence, Set
 from functools import partial
 from operator import attrgetter
 from typing import NamedTuple, TypeVar
@@ -414,16 +414,47 @@ def _apart(
         hidden = unseen & elsewhere
         found: dict[Expr, list[Expr]] = {s: [] for s in outline(expr).symbols if s in hidden}
         held = declared.plant.held
-        others = [(start, from_start(plant, seed, start)) for start in held if hidden]
-        for constant in plant.numbered(expr) if hidden else []:
-            other = plant.apart([constant])
-            others.append((constant, from_start(other, seed) if held else other))
-        for value, other in others:
-            for symbol in hidden & Reactions(other, seed).sensed([expr], wanted=hidden)[0]:
-                found[symbol].append(value)
+        for start in held if hidden else []:
+            other = Reactions(from_start(plant, seed, start), seed)
+            for symbol in hidden & other.sensed([expr], wanted=hidden)[0]:
+                found[symbol].append(start)
+
+        def seen_with(constants: Sequence[Expr], wanted: Set[Expr]) -> Set[Expr]:
+            other = plant.apart(constants)
+            other = from_start(other, seed) if held else other
+            return wanted & Reactions(other, seed).sensed([expr], wanted=wanted)[0]
+
+        for constant, shown in _singly(seen_with, plant.numbered(expr), hidden):
+            for symbol in shown:
+                found[symbol].append(constant)
     except ExactUnavailable:
         return {}
     return {symbol: tuple(constants) for symbol, constants in found.items()}
+
+
+def _singly(
+    seen_with: Callable[[Sequence[Expr], Set[Expr]], Set[Expr]],
+    constants: Sequence[Expr],
+    wanted: Set[Expr],
+) -> Iterator[tuple[Expr, Set[Expr]]]:
+    """The constants of which each alone, at another number, lets some of the wanted be seen.
+
+    Half of them at a time: what many at any numbers do not show, none of them shows alone. To
+    show something takes a point, and to show nothing takes all of them.
+    """
+    if not wanted or not constants:
+        return
+    try:
+        wanted = seen_with(constants, wanted)
+    except ExactUnavailable:
+        if len(constants) == 1:
+            raise
+    if len(constants) == 1:
+        yield constants[0], wanted
+        return
+    middle = len(constants) // 2
+    yield from _singly(seen_with, constants[:middle], wanted)
+    yield from _singly(seen_with, constants[middle:], wanted)
 
 
 def _unconfirmed(plant: Plant, seed: int, expr: Expr, lost: Sequence[Expr], reason: str) -> Entries:
