@@ -296,9 +296,10 @@ class Bank:
             first, last = np.searchsorted(ends, (own.start, own.stop))
             at = ends[first:last] - start
             every = self._outputs(samples[own], self.batch.value[own], self.batch.valid[own])
-            slopes[first:last] = self._slopes(every, partial(np.take, indices=at, axis=1))
+            before = self._before(own.stop - own.start)
+            slopes[first:last] = self._slopes(every, before, partial(np.take, indices=at, axis=1))
             if whole:
-                summed = self._slopes(every, partial(_summed, ends=at))
+                summed = self._slopes(every, before, partial(_summed, ends=at))
                 some = sums[first : first + len(summed)]
                 some += summed[: len(some)]
         return slopes, sums
@@ -312,8 +313,27 @@ class Bank:
             found.insert(0, (batch.value, batch.valid))
         return found
 
+    def _before(self, count: int) -> list[Array | None]:
+        """What the filters show, in each of the last samples, of the time before the onset.
+
+        (n, residuals) for each hypothesis, None where it is no more than the rounding of a number.
+        """
+        found: list[Array | None] = []
+        shares: dict[int, Array] = {}  # by age, as most have the same
+        for lane in self._lanes:
+            if lane.left is not None and lane.age not in shares:
+                ages = lane.age - count + 1 + np.arange(count)
+                shares[lane.age] = _forgotten(self.engine, ages)
+            found.append(None if lane.left is None else lane.left * shares[lane.age])
+            if lane.left is not None and np.max(shares[lane.age][-1]) < np.finfo(float).eps / 2.0:
+                lane.left = None
+        return found
+
     def _slopes(
-        self, outputs: Sequence[tuple[Array, Mask]], chosen: Callable[[Array], Array]
+        self,
+        outputs: Sequence[tuple[Array, Mask]],
+        before: Sequence[Array | None],
+        chosen: Callable[[Array], Array],
     ) -> Array:
         """The slopes of outputs at moments that are `chosen` along the second axis of a table."""
         value, valid = (
@@ -323,11 +343,9 @@ class Bank:
         slopes = np.take(value, up, axis=0)
         slopes -= np.take(value, down, axis=0)
         slopes /= self._plan.apart
-        count = outputs[0][0].shape[1]
-        for own, lane in zip(slopes, self._lanes, strict=True):
-            if lane.left is not None:
-                ages = lane.age - count + 1 + np.arange(count)
-                own -= lane.left * chosen(_forgotten(self.engine, ages)[None])[0]
+        for own, gone in zip(slopes, before, strict=True):
+            if gone is not None:
+                own -= chosen(gone[None])[0]
         if not valid.all():
             slopes *= valid[up] & valid[down]
         return np.asarray(slopes.transpose(1, 0, 2))
