@@ -88,11 +88,26 @@ class _Held(NamedTuple):
 
 
 class _Sized(NamedTuple):
-    """The most probable change of a hypothesis so far, None for a tangent, and its slopes."""
+    """The most probable change of a hypothesis so far, None for a tangent, and its slopes.
 
+    `apart` is how far it is from the one that is found with them (see `_apart`).
+    """
+
+    apart: float
     evidence: float
     change: float | None
     begun: _Begun | None = None  # None as long as these are the slopes of the rows
+
+    @property
+    def told(self) -> float:
+        """The evidence, of which there is none where its slopes are not those of the change."""
+        return -math.inf if self.apart else self.evidence
+
+    def less_than(self, other: _Sized) -> bool:
+        """Whether another change is nearer to the one that is found with it, or explains more."""
+        if other.apart != self.apart:
+            return other.apart < self.apart
+        return other.evidence > self.evidence + _FLAT
 
 
 class _Both(NamedTuple):
@@ -500,22 +515,22 @@ class SinceOnset:
         cases = [Case([self._all[k]], rows.slopes[:, [k]]) for k in self._sized]
         now = {k: one for k, (one,) in zip(self._sized, evidence.explained(cases), strict=True)}
         wanted = {k: one.change for k, one in now.items() if _is_clear(one)}
-        best = {k: _Sized(one.evidence, self._tried[k][1]) for k, one in now.items()}
-        best |= {k: _Sized(-math.inf, None) for k in wanted if best[k].change is None}
+        best = {k: _sized(one, self._tried[k][1]) for k, one in now.items()}
+        best |= {k: _Sized(math.inf, -math.inf, None) for k in wanted if best[k].change is None}
         self._larger(evidence, seen, best, wanted)
         steps = dict.fromkeys(wanted, _STEP)
         for _ in range(_ROUNDS):
-            top = max(one.evidence for one in best.values()) - _BEHIND if best else 0.0
+            top = max(one.told for one in best.values()) - _BEHIND if best else 0.0
             steps = {k: step for k, step in steps.items()
-                     if step > _FINE and (step == _STEP or best[k].evidence >= top)}  # fmt: skip
+                     if step > _FINE and (step == _STEP or best[k].told >= top)}  # fmt: skip
             at = {k: best[k].change or wanted[k] for k in steps}
-            before = {k: best[k].evidence for k in steps}
+            before = {k: best[k] for k in steps}
             tried = [self._larger(evidence, seen, best, {k: at[k] * steps[k] ** way for k in steps})
                      for way in (1, -1)]  # fmt: skip
             for k, step in steps.items():
-                if all(abs(own[k] - before[k]) <= _FLAT for own in tried):
+                if all(abs(own[k] - before[k].evidence) <= _FLAT for own in tried):
                     steps[k] = 1.0  # the law is straight
-                elif best[k].evidence <= before[k]:
+                elif best[k] is before[k]:
                     steps[k] = math.sqrt(step)
         for begun in {id(one.begun): one.begun for one in best.values() if one.begun}.values():
             self._take(begun, [k for k, one in best.items() if one.begun is begun])
@@ -542,8 +557,9 @@ class SinceOnset:
             cases = [Case([self._all[k]], slopes[:, [at]]) for k, at in sound.items()]
             for k, (one,) in zip(sound, evidence.explained(cases) if cases else (), strict=True):
                 found[k] = one.evidence
-                if one.evidence > best[k].evidence + _FLAT:
-                    best[k] = _Sized(one.evidence, begun.bent.get(k), begun)
+                trial = _sized(one, begun.bent.get(k), begun)
+                if best[k].less_than(trial):
+                    best[k] = trial
         return found
 
     def _secants(self, changes: Mapping[int, float]) -> dict[int, float]:
@@ -582,6 +598,27 @@ def _joined(rows: Sequence[tuple[Row, Array]]) -> tuple[Array, list[int]]:
     """The samples of rows, one after the other, and the number of the last one of each."""
     ends = accumulate(len(row.samples) for row, _ in rows)
     return np.concatenate([row.samples for row, _ in rows]), [end - 1 for end in ends]
+
+
+def _sized(one: Explained, change: float | None, begun: _Begun | None = None) -> _Sized:
+    return _Sized(_apart(change, one.change), one.evidence, change, begun)
+
+
+def _apart(change: float | None, found: float) -> float:
+    """How far a change is from the one that is found with the secant up to it: the logarithm of
+    their ratio beyond that of sizes that are compared at first, 0 for a tangent.
+
+    What a law does at a size tells of changes of about that size. Far up a law that flattens a
+    secant is no more than a hint of a fault, and a small part of it explains what a fault of that
+    part would not do.
+
+    >>> _apart(2.0, 1.5), round(_apart(2.0, 8.0), 3), _apart(2.0, -1.0)
+    (0.0, 0.693, inf)
+    """
+    if change is None:
+        return 0.0
+    ratio = found / change
+    return max(0.0, abs(math.log(ratio)) - math.log(_STEP)) if ratio > 0.0 else math.inf
 
 
 def _is_clear(one: Explained) -> bool:

@@ -106,6 +106,47 @@ def test_a_fault_is_not_given_up_for_its_first_size_far_up_a_bent_law(
     assert last.candidates[0].probability > 0.9
 
 
+def test_no_size_far_up_a_law_makes_a_fault_of_what_another_sensor_reads() -> None:
+    """The inlet reads 8 kPa too much: the pressure before a vane may read as much too little.
+
+    Then the vane would need another opening, and it does not. A reading that is 5 MPa off is where
+    the law is flat, and a small part of that explains all but is nothing that the law does.
+    """
+    text = """bg 1
+model Penstock {
+    input P : Pa
+    input u
+    param K = 2e6 Pa.s^2/m^6
+    param kt = 4e-4 m^3/s.Pa^-0.5
+    param tau = 0.5 s
+    1:line { <- Se:P; -> R:K { e = K*f*abs(f) }; -> Df:Q; -> 0:inlet }
+    inlet { -> De:p; -> R:vane { f = kt*opening.e*ssqrt(e) } }
+    1:servo { <- Se:cmd = u; -> R:lag { e = f }; -> 0:opening }
+    opening { -> C:place = tau }
+}
+"""
+    line = Compilation(Source("penstock.bg", text), options=bondgraph.Options(rate=50.0))
+    t, kt, tau, K = np.arange(9000) / 50.0, 4e-4, 0.5, 2e6
+    x = 0.5 + 0.03 * np.sin(t / 5.0)
+    u = x + tau * 0.03 * np.cos(t / 5.0) / 5.0
+    P = 5e5 + 5e3 * np.sin(t / 11.0)
+    # Q = kt x sqrt(p) and P = K Q^2 + p
+    p = P / (1.0 + K * (kt * x) ** 2)
+    draw = np.random.default_rng(3)
+    columns = {
+        "P": P + 100.0 * draw.normal(size=len(t)) + np.where(t >= 90.0, 8e3, 0.0),
+        "u": u,
+        "Q": kt * x * np.sqrt(p) * (1.0 + 0.01 * draw.normal(size=len(t))),
+        "p": p + 100.0 * draw.normal(size=len(t)),
+    }
+    updates = [v for v in _watched(line, t, columns) if v.event == "update"]
+    assert updates
+    for said in updates:
+        assert said.candidates[0].fault == "P", said
+        assert all(one.probability < 0.05 for one in said.candidates if one.fault == "p")
+    assert updates[-1].candidates[0].size == pytest.approx(-8e3, rel=0.05)
+
+
 def test_a_storage_may_become_another_one_while_what_is_measured_goes_on() -> None:
     # from t0 on J w' is larger by dJ w', through a filter of equal stages, and no step of dJ w is
     brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
