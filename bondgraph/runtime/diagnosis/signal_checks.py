@@ -111,7 +111,7 @@ class SignalChecks:
         self._weights = np.empty((0, 2))  # (signals, 2): of the nearest and the next ones
         self._samples = np.zeros(count)  # that were learned from
         self._rows = np.zeros(count)  # the same in rows
-        self._far = np.zeros((2, count))  # largest spike when healthy, and off expected
+        self._far = np.zeros(count)  # largest spike when healthy
         self._answer = np.zeros((2, count))  # largest to a rare step of a command; samples of such
         self._stepped = np.zeros(len(self._steer))  # largest step of each command that was answered
         self._rough = np.zeros((2, count))  # of a healthy row: roughness, and beside its motion
@@ -273,7 +273,7 @@ class SignalChecks:
         """Of each kind: which signals are unusual, how far out each is now, and was at most."""
         with np.errstate(divide="ignore", invalid="ignore"):
             floor = _FLOOR * np.maximum(span, 1e-300)
-            spike = far[0] > np.maximum(_OUT * self._far[0], floor)
+            spike = far[0] > np.maximum(_OUT * self._far, floor)
             spike &= far[0] > _ALONE * far[2]
             told = [n in self.active and self.active[n].kind == "burst" for n in self._names]
             share = np.where(told, 0.5, 1.0)  # it goes on until it is half as much
@@ -288,7 +288,7 @@ class SignalChecks:
             changing = (self._still > 0.0) & (self._least >= _CHANGES)
             noisy = changing & np.isfinite(self._calm) & (self._calm > _NOISY)
             return {
-                "spike": (spike, far[1] / whole, self._far[1] / whole),
+                "spike": (spike, far[1] / whole, self._far / whole),
                 "burst": (burst, rough / whole, self._rough[0] / whole),
                 "stuck": (noisy & (runs > longest), runs, self._still),
             }
@@ -364,9 +364,7 @@ class SignalChecks:
         """
         fresh = np.isfinite(far[0]) & (self._samples < _MOST)
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
-            out = far[0] > np.maximum(
-                _OUT * self._far[0], _FLOOR * (self._range[1] - self._range[0])
-            )
+            out = far[0] > np.maximum(_OUT * self._far, _FLOOR * (self._range[1] - self._range[0]))
         quiet = rough <= self._louder() * self._rough[0]
         spikes = out & quiet & (self._samples >= _ENOUGH)
         beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
@@ -374,8 +372,7 @@ class SignalChecks:
         usual = self._run <= np.maximum(self._still, 1.0) * 2.0  # else it may have begun to stand
         for table, more, which in (
             (self._range[1], seen.max(axis=0), fresh),
-            (self._far[0], far[0], fresh & ~spikes),
-            (self._far[1], far[1], fresh & ~spikes),
+            (self._far, far[0], fresh & ~spikes),
             (self._answer[0], far[3], np.isfinite(far[0])),  # few: there are never enough of them
             (self._still, ended, fresh),
         ):

@@ -43,6 +43,7 @@ def test_healthy_signals_are_not_unusual(seed: int) -> None:
 @pytest.mark.parametrize(("column", "name", "size", "at"), [
     (0, "y", 1.0, 2510), (1, "q", 1.0, 2510), (2, "T", 2.0, 2510),
     (1, "q", 1.0, 2498), (2, "T", 2.0, 2498),  # the end of a row, told with the next one
+    (1, "q", 0.1, 2510),  # steps are farther from what their neighbours let expect
 ])  # fmt: skip
 def test_a_spike_is_told_with_its_time(column: int, name: str, size: float, at: int) -> None:
     samples = _signals(3)
