@@ -47,6 +47,7 @@ class Detection:
         self._cusum = Cusum(len(residuals), learns)
         self.fired: Mask = np.zeros(len(residuals), dtype=np.bool_)
         self.most = np.zeros(len(residuals))
+        self._age = np.zeros(len(residuals))  # rows since each has fired
         self.alarms = 0
         self._needed = _QUIET  # rows that have to be quiet
         self._away = PAUSE + 1  # rows since a fault was over
@@ -95,6 +96,7 @@ class Detection:
 
     def row(self, row: Row, limits: Array) -> Mask:
         """Which fire by what is too much in rows (see `Cusum`)."""
+        self._age += 1.0
         if not self.alarmed:
             self._away = min(self._away + 1, PAUSE + 1)
         return np.asarray(self._cusum.add(row, limits) & ~self.fired)
@@ -115,10 +117,20 @@ class Detection:
             gap = self._away + self._gone  # rows without it
             self._needed = away(gap, self._gone, _QUIET, self._pause)
         self.fired = self.fired | fresh
+        self._age[fresh] = 0.0
         self._still = 0
         self.reconsider()
         self.alarms += first
         return first
+
+    def withdraw(self, which: Mask, rows: int) -> None:
+        """Some of those that have fired in so many rows did it for nothing, if others go on."""
+        own = self.fired & which & (self._age < rows)
+        if not (self.fired & ~own).any():
+            return
+        self.fired = self.fired & ~own
+        self.most[own] = self._healthy[own] = 0.0
+        self._sum[:, own] = self._held[:, own] = 0.0
 
     def ending(self, row: Row, limits: Array) -> bool:
         """Whether a fault seems to end: nothing that has fired is out in a row, or was lately."""
@@ -206,6 +218,7 @@ class Detection:
         other = Detection(self._names, self._least, pause=self._pause)
         other.fired = array(state["fired"], self.fired.shape) != 0.0
         other.most = array(state["most"], self.most.shape)
+        other._age[:] = math.inf  # long ago
         other._cusum = self._cusum.resumed(state)
         other.alarms = int(state["alarms"])
         other._needed, other._away, other._gone = (int(x) for x in state["pause"])

@@ -38,7 +38,7 @@ from bondgraph.runtime.diagnosis.rows import (
     weight,
 )
 from bondgraph.runtime.diagnosis.sensor_offsets import SensorOffsets, sensor_offsets
-from bondgraph.runtime.diagnosis.signal_checks import SignalChecks
+from bondgraph.runtime.diagnosis.signal_checks import SignalChecks, Unusual
 from bondgraph.runtime.diagnosis.standing import Levels
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
@@ -117,6 +117,7 @@ class Diagnosis:
         self._averages: list[tuple[int, Average]] = []
         self._before = copied(self._bank.engine)
         self._ends = False  # whether the present samples complete a row
+        self._spikes: list[tuple[float, Mask]] = []  # until when residuals show one that was told
         self._status.restart()
         self._detection.restart()
         self._judge.restart()
@@ -151,7 +152,8 @@ class Diagnosis:
                 line[:, self._learning.settling] = math.nan
             line[~np.isfinite(line)] = math.nan
             self._last.append(Batch(part.value, part.valid, line))
-            for k, fresh in self._detection.samples(part, line):
+            told = part._replace(valid=part.valid & ~self._passing(float(part.time[0])))
+            for k, fresh in self._detection.samples(told, line):
                 self._fire(float(part.time[k]), fresh, [*self._piece, part.samples[: k + 1]], out)
             row = self._row(part, out)
             if row is not None:
@@ -226,7 +228,8 @@ class Diagnosis:
         """What signals show by themselves in a row, told as a fault of theirs.
 
         Where others show something too, it may come from one of these: a controller acts on what
-        it reads, and so a noisy sensor moves others.
+        it reads, and so a noisy sensor moves others. What is named already stays named beside what
+        does not last, or does not move all that has fired.
         """
         before = set(self._checks.active)
         healthy = not (self._detection.alarmed or before)
@@ -241,16 +244,41 @@ class Diagnosis:
             message += f", beside {listed(others, 'and')}" if others else ""
             group = () if others else (one.signal,)
             event, levels = "fault" if first else "update", self._detection.levels()
-            out.append(Verdict(event, row.time, since, levels, group, which, message=message))
+            told = Verdict(event, row.time, since, levels, group, which, message=message)
+            if self._judge.said and one.kind == "spike":
+                self._pass_over(one)
+            if self._judge.said and (one.kind == "spike" or one.signal not in suspects):
+                told = self._judge.beside(told)
+            out.append(told)
             before.add(one.signal)
         if before and not self._checks.active and not self._detection.alarmed:
             message = f"{listed(sorted(before), 'and')} as while the machine was well"
             out.append(Verdict("cleared", row.time, message=message))
 
+    def _pass_over(self, spike: Unusual) -> None:
+        """What residuals show of a spike beside a fault that is named tells nothing of that."""
+        sees = np.array([spike.signal in self._model.sees.get(name, ())
+                         for name in self._engine.residuals])  # fmt: skip
+        until = spike.since + self._engine.warm_up + self._engine.lags[-1]
+        self._spikes.append((until, sees))
+        late = [row for row in self._past if row.time >= spike.since]
+        for row in late:
+            row.leave_out(sees)
+        self._detection.withdraw(sees, len(late))
+
+    def _passing(self, time: float) -> Mask:
+        """The residuals that show a spike still that was told."""
+        self._spikes = [one for one in self._spikes if one[0] > time]
+        found: Mask = np.zeros(len(self._engine.residuals), dtype=np.bool_)
+        for _, sees in self._spikes:
+            found |= sees
+        return found
+
     def _judged(self, row: Row, out: list[Verdict]) -> None:
         """What a row tells."""
         self._rows += 1
         self._checked(row, out)
+        row.leave_out(self._passing(row.time))
         if self._learning is not None:
             settling = self._learning.settling
             fresh = self._learn(row, healthy=not self._detection.alarmed)

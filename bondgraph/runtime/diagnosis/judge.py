@@ -67,6 +67,7 @@ class Judge:
         self._best: Explained | None = None  # the fault that explains all, if any
         self._leads: tuple[str, ...] = ()  # the class that the last judgement found best
         self._wanted: Judgement | None = None  # what the last judgement would have said
+        self._verdict: Verdict | None = None  # what was said last of this alarm
 
     @property
     def waits(self) -> bool:
@@ -107,13 +108,20 @@ class Judge:
         """Take over what another one has learned of signals."""
         self._sizes = other._sizes
 
+    def beside(self, other: Verdict) -> Verdict:
+        """Another verdict of the same alarm, that leaves standing what it was told the fault is."""
+        assert self.latched is not None and self.latched.said is not None
+        message = f"{other.message}; what was said of the alarm stays said"
+        last = self._verdict or other._replace(group=self.latched.said.group, candidates=())
+        return last._replace(time=other.time, residuals=other.residuals, message=message)
+
     def learn(self, samples: Array) -> None:
         """Further (n, signals) samples, one after the other."""
         self._sizes.add(samples)
 
     def latch(self, since: float) -> None:
         """There is an alarm, for something that began at this time."""
-        self.latched, self._wanted = Latched(since), None
+        self.latched, self._wanted, self._verdict = Latched(since), None, None
 
     def renew(self) -> None:
         """There is more to go by than before: compare anew, and do not wait to tell it."""
@@ -245,7 +253,7 @@ class Judge:
                 self._next = min(self._next, self._after + _AGAIN)
             return None
         self.latched = self.latched._replace(said=wanted, times=self.latched.times + 1)
-        self._told = self._after
+        self._told, self._verdict = self._after, verdict
         return verdict
 
     def _judges(self, fired: frozenset[str]) -> bool:

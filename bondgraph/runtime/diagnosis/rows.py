@@ -85,6 +85,12 @@ class Row(NamedTuple):
     mean: Array | float = 0.0  # of the residuals while all is well, that was taken off the value
     average: Average | None = None  # of its samples, if it is known
 
+    def leave_out(self, which: Mask) -> None:
+        """Nothing is known of some residuals."""
+        self.valid[which] = False
+        if self.average is not None:
+            self.average.valid[which] = False
+
     def lower(self, by: Array) -> None:
         """Take something more off the values: residuals stand elsewhere while all is well."""
         np.subtract(self.value, by, out=self.value, where=self.valid)

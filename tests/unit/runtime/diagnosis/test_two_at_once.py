@@ -216,3 +216,30 @@ def test_two_sensors_that_are_noisy_at_once_are_both_named() -> None:
     assert then.event == "update" and then.group == () and 63.0 < then.time < 66.0
     assert [(c.fault, c.probability) for c in then.candidates] == [("y1", 0.5), ("i", 0.5)]
     assert then.message.endswith(", beside y1")
+
+
+@pytest.mark.parametrize("column", [1, 3])
+def test_a_spike_takes_no_name_from_a_fault_that_lasts(column: int) -> None:
+    """What was told of the fault is in the last verdict too; also of one that was resumed."""
+
+    def jumping(t: np.ndarray, samples: np.ndarray) -> None:
+        samples[round(90.0 * _RATE), column] += 1.0
+
+    said = _watched(5, {"R1": (60.0, 1.5)}, read=jumping)
+    before = [v for v in said if v.event == "update" and v.time < 90.0][-1]
+    assert before.group == ("R[1]", "U")
+    (spike,) = [v for v in said if "a spike" in v.message]
+    assert spike.event == "update" and 90.0 < spike.time < 92.0
+    assert (spike.group, spike.candidates) == (("R[1]", "U"), before.candidates)
+    assert spike.since == before.since
+    assert spike.message.endswith("what was said of the alarm stays said")
+    assert [v.group for v in said if v.event == "update" and v.time > 90.0] == [("R[1]", "U")]
+    engine, (t, samples) = _line().engine(), _samples(5, {"R1": (60.0, 1.5)})
+    jumping(t, samples)
+    half = round(80.0 * _RATE)
+    first, second = _line().diagnosis(engine), _line().diagnosis(_line().engine())
+    first.update(t[:half], engine.run(samples[:half]), samples[:half])
+    second.resume(first.state())
+    engine = _line().engine()
+    more = second.update(t[half:], engine.run(samples[half:]), samples[half:])
+    assert [v.group for v in more if "a spike" in v.message] == [("R[1]", "U")]
