@@ -242,11 +242,12 @@ class Judge:
         if best is not None:
             (one,) = [e for e in found if e.fault == best.fault]
             off = one.hypothesis.off(one.change, time - self.latched.since)
-            wanted = Judgement(sure, best.fault, two, best.size, best.unit, off)
+            wanted = Judgement(sure, best.fault, two, best.size, best.unit, off, best.probability)
         before, told = self._wanted, self.latched.said
         again = before is not None and before.says(wanted)
-        if before is not None and told is not None and wanted.grown(told):
-            again &= before.grown(told)
+        if before is not None and told is not None:
+            again &= before.grown(told) or not wanted.grown(told)
+            again &= before.surer(told) or not wanted.surer(told)
         self._wanted = wanted
         if not news(self.latched, wanted, again, self._after - self._told):
             if news(self.latched, wanted, True, LONGEST):  # to be told, once that is confirmed

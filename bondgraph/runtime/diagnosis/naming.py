@@ -40,6 +40,8 @@ _GROWN = 1.5  # times its size that a fault has to have to be told again
 _WRONG, _BEYOND = 0.1, 3.0  # of a value, and deviations, that it may seem to be on the wrong side
 _FAR = 1e3  # deviations: farther out a normal distribution is an exponential one
 _OFF = 3.0  # times as far off, of a share beside an offset: they are alike at one level only
+_SURER = math.log(20.0)  # of its odds: by so much surer a fault is told again
+_CERTAIN = math.log(99.0)  # odds that are as good as any larger ones
 _AGAIN = 5  # rows between an update and the next, twice as many each time
 LONGEST = 320  # rows that anything said again has to wait
 
@@ -134,7 +136,8 @@ class Judgement(NamedTuple):
     """The class that is named, () if of none, and the most probable candidate with size and unit.
 
     Where no single fault explains what was seen, `pair` are two that do, or classes of such. `off`
-    says how far the reading was off that is wrong, in its own unit, 0 where nobody knows that.
+    says how far the reading was off that is wrong, in its own unit, 0 where nobody knows that;
+    `probability` how probable the candidate was.
     """
 
     group: tuple[str, ...]
@@ -143,6 +146,7 @@ class Judgement(NamedTuple):
     size: float | None = None
     unit: str = ""
     off: float = 0.0
+    probability: float | None = None
 
     def says(self, other: Judgement) -> bool:
         """Whether it says the same, whatever the sizes: off by some, or by none as it stands.
@@ -165,6 +169,24 @@ class Judgement(NamedTuple):
             return self.off > _OFF * other.off > 0.0
         return not 1.0 / _GROWN <= self.size / (other.size or math.inf) <= _GROWN
 
+    def surer(self, other: Judgement) -> bool:
+        """Whether the same fault is twenty times as probable, beside all else, as in another one.
+
+        >>> told, now = (Judgement(("R", "v"), "v", probability=p) for p in (0.5, 0.96))
+        >>> now.surer(told), told.surer(now), now._replace(fault="R").surer(told)
+        (True, False, False)
+        """
+        if self.probability is None or other.probability is None or self.fault != other.fault:
+            return False
+        return _odds(self.probability) - _odds(other.probability) >= _SURER
+
+
+def _odds(probability: float) -> float:
+    """The logarithm of the odds, as far as larger ones say more."""
+    least = 1.0 / (1.0 + math.exp(_CERTAIN))
+    inside = min(max(probability, least), 1.0 - least)
+    return math.log(inside / (1.0 - inside))
+
 
 class Latched(NamedTuple):
     """An alarm: `since` when (s), what was `said` of it last, and how many `times` so far."""
@@ -176,7 +198,8 @@ class Latched(NamedTuple):
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
         said = self.said and [list(self.said.group), self.said.fault, self.times, self.said.pair,
-                              self.said.size, self.said.unit, self.said.off]  # fmt: skip
+                              self.said.size, self.said.unit, self.said.off,
+                              self.said.probability]  # fmt: skip
         return {"since": self.since, "said": said}
 
     @classmethod
@@ -192,13 +215,14 @@ class Latched(NamedTuple):
             return cls(since)
         group, fault, times, pair, size, *more = state["said"]
         size = None if size is None else float(size)
-        unit, off = more or ("", 0.0)  # none before 2026-11-28
-        said = Judgement(tuple(group), fault, tuple(pair), size, str(unit), float(off))
+        unit, off = more[:2] or ("", 0.0)  # none before 2026-11-28
+        chance = float(more[2]) if more[2:] and more[2] is not None else None  # nor this before -30
+        said = Judgement(tuple(group), fault, tuple(pair), size, str(unit), float(off), chance)
         return cls(since, said, int(times))
 
 
 def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
-    """Whether a judgement is to be told: something else than before or of another size, for good.
+    """Whether a judgement is to be told: something else than before, of another size, or surer.
 
     `again` says whether the judgement before had the same, `waited` how many rows ago the last one
     was told. Who waits longer each time does not go back and forth between two that are alike.
@@ -214,13 +238,16 @@ def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
     >>> share, more = (large._replace(unit="%", off=x) for x in (2.9, 3.1))
     >>> [news(Latched(0.0, small._replace(off=1.0), 1), now, True, 20) for now in (share, more)]
     [False, True]
+    >>> [news(Latched(0.0, a._replace(probability=p), 1), a._replace(probability=0.97), True, 20)
+    ...  for p in (0.5, 0.7)]
+    [True, False]
     """
     said = latched.said
     if said is None:
         return True
     late = again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), LONGEST)
     if wanted.says(said) or (not wanted.group and wanted.fault in said.group):
-        return late and wanted.grown(said)  # the same, or only less sure of it
+        return late and (wanted.grown(said) or wanted.surer(said))  # else the same, or less sure
     if (wanted.group and not said.group) or (wanted.pair and not (said.pair or said.group)):
         return True
     return late
