@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from itertools import accumulate
 
 import numpy as np
@@ -12,7 +12,6 @@ from bondgraph.runtime.diagnosis.healthy import drifting
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead, Stuck, staying
 from bondgraph.runtime.diagnosis.isolation import (
-    RARER,
     Case,
     Evidence,
     Explained,
@@ -20,12 +19,10 @@ from bondgraph.runtime.diagnosis.isolation import (
     Rows,
     inverse,
 )
-from bondgraph.runtime.diagnosis.model_error import SHARE
-from bondgraph.runtime.diagnosis.noise import left_for_drift
 from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.row_sums import Moves, Told, told
-from bondgraph.runtime.diagnosis.rows import CORRELATED, Row
-from bondgraph.runtime.diagnosis.tuning import UNKNOWN
+from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.two_at_once import showing
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
 from bondgraph.text.tuples import NamedTuple
@@ -231,7 +228,7 @@ class SinceOnset:
         Two of the `singles`, each with its onset and size. How a fault sets in is not known:
         whether one is enough does not hang on that, nor on what parameters of a healthy machine
         may drift by meanwhile. But which two it is, and how large they are, is known best with it:
-        some show only then. And each of both has to show (see `_showing`).
+        some show only then. And each of both has to show (see `showing`).
         """
         seen = self._told_by()
         rows, (others,) = self._weighed(seen, [self._held])
@@ -249,27 +246,8 @@ class SinceOnset:
         found[:near] = [own.two for own in bent]
         found = [again._replace(changes=two.changes, whole=two.whole)
                  for again, two in zip(later, found, strict=True)]  # fmt: skip
-        found = [found[k] for k in self._showing(seen, rows, found, moved)]
+        found = [found[k] for k in showing(seen, rows, found, moved)]
         return evidence.explained([case])[0], sorted(found, key=lambda two: -two.whole)
-
-    def _showing(
-        self, seen: Told, rows: Rows, pairs: Sequence[ExplainedPair], moved: Sequence[Array]
-    ) -> Iterator[int]:
-        """Which pairs are two faults: each of both would show by itself, and beside the other one.
-
-        In some residual it makes what was seen a thousand times more probable than a machine with
-        what gives no alarm, and with a law that is wrong by two deviations of what is said of the
-        residual. What is less mends the model, or follows a supply that wanders. `moved` is what
-        one of each does, (rows, 2, residuals).
-        """
-        room, sigma = left_for_drift(seen.bound, seen.doubt)[:, None], seen.noise[:, None]
-        room = room + UNKNOWN * SHARE * np.abs(rows.value)[:, None]
-        known = (rows.weight > 0)[:, None] & np.isfinite(sigma)
-        for k, (two, slopes) in enumerate(zip(pairs, moved, strict=True)):
-            out = np.abs(slopes * np.array(two.changes)[:, None]) - room
-            squares = np.where(known, np.maximum(out / sigma, 0.0), 0.0) ** 2
-            if (squares.sum(axis=0).max(axis=1) >= 2.0 * CORRELATED * RARER).all():
-                yield k
 
     def _numbers(self, two: ExplainedPair) -> tuple[int, int]:
         return self._all.index(two.hypotheses[0]), self._all.index(two.hypotheses[1])

@@ -11,6 +11,11 @@ from scipy.linalg import expm
 
 import bondgraph
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.isolation import ExplainedPair, Rows
+from bondgraph.runtime.diagnosis.row_averages import LAGS
+from bondgraph.runtime.diagnosis.row_sums import Forms, Told
+from bondgraph.runtime.diagnosis.two_at_once import showing
 from bondgraph.runtime.monitoring.verdict import Verdict, from_json, to_json
 
 _TEXT = """bg 1
@@ -243,3 +248,21 @@ def test_a_spike_takes_no_name_from_a_fault_that_lasts(column: int) -> None:
     engine = _line().engine()
     more = second.update(t[half:], engine.run(samples[half:]), samples[half:])
     assert [v.group for v in more if "a spike" in v.message] == [("R[1]", "U")]
+
+
+@pytest.mark.parametrize(("second", "shows"), [(0.2, False), (2.0, True)])
+def test_a_second_fault_shows_by_what_the_first_one_does_not_do(second: float, shows: bool) -> None:
+    """Both move the first residual by five deviations, and one of them the second one as well.
+
+    By a fifth of a deviation in each of a hundred rows that is a residual that stands a little off.
+    """
+    rows, none = 100, np.zeros((100, 2))
+    slopes = np.zeros((rows, 2, 2))
+    slopes[:, 0], slopes[:, 1] = [5.0, 0.0], [5.0, second]
+    value = slopes.sum(axis=1)
+    forms = Forms(none > 0.0, np.zeros((rows, LAGS, 2)))
+    seen = Told(forms, value, none == 0.0, none, none, np.zeros((rows, 0, 2)), none + 1.0)
+    told = Rows(value, none + 1.0, seen.rest, slopes)
+    a, b = (Hypothesis(name, "value", "", 1.0, False) for name in "ab")
+    pair = ExplainedPair((a, b), 50.0, (1.0, 1.0))
+    assert list(showing(seen, told, [pair], [slopes])) == [0] * shows
