@@ -254,7 +254,7 @@ def test_a_spike_takes_no_name_from_a_fault_that_lasts(column: int) -> None:
 def test_a_second_fault_shows_by_what_the_first_one_does_not_do(second: float, shows: bool) -> None:
     """Both move the first residual by five deviations, and one of them the second one as well.
 
-    By a fifth of a deviation in each of a hundred rows that is a residual that stands a little off.
+    By a fifth of a deviation in each of a hundred rows no alarm would be given.
     """
     rows, none = 100, np.zeros((100, 2))
     slopes = np.zeros((rows, 2, 2))
