@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence, Set
 from fractions import Fraction
 from typing import Any
 
@@ -10,7 +11,7 @@ import pytest
 import bondgraph
 from bondgraph.algebra.implicit import invert
 from bondgraph.exact.plant import ATTEMPTS, ExactUnavailable, Plant
-from bondgraph.exact.reactions import Reactions, branches
+from bondgraph.exact.reactions import Reactions, _singly, branches
 from bondgraph.exact.trajectory import Trajectory
 from bondgraph.field.numbers import DividedByZero
 from bondgraph.field.sparse import Contradiction
@@ -269,3 +270,29 @@ def test_what_a_fault_brings_to_zero_is_tried_as_often_for_the_next_one(
             reactions.draw(never, 1, "relation", healthy)
         counts.append(len(tried))
     assert counts == [40 if well else 80, later]
+
+
+@pytest.mark.parametrize("far", [False, True])
+def test_constants_that_alone_let_a_fault_be_seen_are_found_by_halves(far: bool) -> None:
+    """Two of sixteen do, each for faults of its own, and two others together only; where a machine
+    has no trajectory at so many other numbers they are asked for one by one."""
+    pool = Pool()
+    constants = [pool.symbol(f"c{k}", Kind.PARAM) for k in range(16)]
+    a, b, c = (pool.symbol(name, Kind.PARAM) for name in "abc")
+    asked: list[int] = []
+
+    def seen_with(others: Sequence[Expr], wanted: Set[Expr]) -> Set[Expr]:
+        asked.append(len(others))
+        if far and len(others) > 2:
+            raise ExactUnavailable("no point")
+        shown = {a} if constants[3] in others else set()
+        shown |= {a, b} if constants[11] in others else set()
+        shown |= {c} if {constants[4], constants[9]} <= set(others) else set()
+        return wanted & shown
+
+    found = dict(_singly(seen_with, constants, {a, b, c}))
+    assert {k: shown for k, shown in found.items() if shown} == {
+        constants[3]: {a}, constants[11]: {a, b},
+    }  # fmt: skip
+    assert list(found) == sorted(found, key=constants.index)
+    assert len(asked) < (31 if far else 16)
