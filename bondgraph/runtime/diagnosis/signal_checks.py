@@ -458,7 +458,9 @@ class SignalChecks:
         if state["learned"]:
             self._weights = np.zeros((len(self._names), 2))
             for table, known in zip(self._learned(), state["learned"], strict=True):
-                table[:] = array(known, table.shape)
+                # with a second measure of spikes before 2026-11-30
+                both = table is self._far and any(isinstance(row, list) for row in known)
+                table[:] = array(known[0] if both else known, table.shape)
             self._range[1][self._samples == 0] = -math.inf  # of which nothing is known
         self._encoders.resume(state["encoders"])
         for signal, kind, since, now, before, other, needed in state["active"]:

@@ -352,12 +352,27 @@ def test_what_is_known_outlasts_a_restart() -> None:
     assert [u[:2] for u in told[0]] == [("y", "spike")] == [u[:2] for u in told[1]]
 
 
+@pytest.mark.parametrize("count", [2, 3])
+def test_a_state_with_a_second_measure_of_spikes_is_taken(count: int) -> None:
+    columns, samples = list(range(count)), _signals(5)
+    one, other = (SignalChecks(["y", "q", "T"][:count], columns, _STEP) for _ in range(2))
+    for k in range(0, 2000, _ROW):
+        one.row((k + _ROW - 1) * _STEP, samples[k : k + _ROW], True)
+    state = json.loads(json.dumps(one.state()))
+    at = next(k for k, table in enumerate(one._learned()) if table is one._far)
+    before = {**state, "learned": [*state["learned"]]}
+    before["learned"][at] = [state["learned"][at], [9.0] * count]
+    other.resume(before)
+    assert other.state() == state
+
+
 @pytest.mark.parametrize(
     "state",
     [
         [["y", "burst", 1.0, 2.0]],
         {"learned": [], "active": [["y", "burst", None, 1.0, 0.1, 3]]},
         {"learned": [[1.0]], "active": []},
+        {"learned": [[]] * 11, "active": []},
         {"active": []},
     ],
 )
