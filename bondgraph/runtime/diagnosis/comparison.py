@@ -10,7 +10,7 @@ from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.since_onset import BENT, MOST, SinceOnset
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
 
 
@@ -66,6 +66,12 @@ class Comparison:
             self._rows.append(one)
         if self._beside is not None:
             self._beside.step(*one)
+
+    def leave_out(self, since: float, which: Mask) -> None:
+        """Nothing is known of some residuals in the rows that end since a time."""
+        for row, _ in self._rows:
+            if row.time >= since:
+                row.leave_out(which)  # what runs beside has the same rows
 
     def explained(self, history: History, faults: Collection[str]) -> list[Explained]:
         """How well at least these faults explain the rows; raises LinAlgError as `explain` does."""

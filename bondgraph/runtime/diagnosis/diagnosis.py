@@ -264,6 +264,7 @@ class Diagnosis:
         late = [row for row in self._past if row.time >= spike.since]
         for row in late:
             row.leave_out(sees)
+        self._judge.leave_out(spike.since, sees)
         self._detection.withdraw(sees, len(late))
 
     def _passing(self, time: float) -> Mask:

@@ -30,7 +30,7 @@ from bondgraph.runtime.diagnosis.naming import (
     update,
 )
 from bondgraph.runtime.diagnosis.rows import Row, weight
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 
@@ -107,6 +107,11 @@ class Judge:
     def succeed(self, other: Judge) -> None:
         """Take over what another one has learned of signals."""
         self._sizes = other._sizes
+
+    def leave_out(self, since: float, which: Mask) -> None:
+        """Nothing is to be told by some residuals since a time."""
+        if self._compared is not None:
+            self._compared.leave_out(since, which)
 
     def beside(self, other: Verdict) -> Verdict:
         """Another verdict of the same alarm, that leaves standing what it was told the fault is."""

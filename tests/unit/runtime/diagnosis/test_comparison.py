@@ -246,7 +246,7 @@ def _compared(rows: int, asked: Callable[[int], Collection[str]]) -> Comparison:
     one, nothing = np.ones(1), np.zeros((0, 1))
     for k in range(rows):
         part = samples[20 * k : 20 * k + 20]
-        row = Row(0.0, part, engine, 0.1 * k * one, one > 0, one, one, nothing)
+        row = Row(float(k), part, engine, 0.1 * k * one, one > 0, one, one, nothing)
         compared.step(row, np.array([Limit(1.0, 1.0, 4.0, 9.0)]))
         faults = asked(k + 1)
         if faults:
@@ -272,6 +272,15 @@ def test_what_is_found_late_goes_on_from_where_the_samples_are() -> None:
     drag = [k for k, h in enumerate(known) if h.fault == "c"]
     assert fault.hypothesis == known[drag[0]]
     assert _last(compared) == pytest.approx(slopes, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("asked", [(), (5,), (5, 10, 20, 28)])
+def test_rows_that_are_left_out_tell_nothing(asked: Collection[int]) -> None:
+    """Of thirty the last five, those that wait to be run as those that were."""
+    history, faults = History(np.zeros(0)), ("c", "J")
+    compared = _compared(30, lambda rows: faults if rows in asked else ())
+    compared.leave_out(25.0, np.array([True]))
+    assert [one.values for one in compared.explained(history, faults)] == [25, 25]
 
 
 def test_a_fault_that_is_asked_for_later_is_compared_as_from_the_first_row_on() -> None:
