@@ -19,9 +19,10 @@ from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
 from bondgraph.runtime.diagnosis.isolation import Explained, inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
-from bondgraph.runtime.diagnosis.naming import Latched, loud
+from bondgraph.runtime.diagnosis.naming import Latched
 from bondgraph.runtime.diagnosis.noise import COVERED
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
+from bondgraph.runtime.diagnosis.possible import loud
 from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.rows import (
     Average,

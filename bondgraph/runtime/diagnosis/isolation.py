@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from itertools import accumulate, chain, product
+from itertools import accumulate, chain
 from types import MappingProxyType
 
 import numpy as np
@@ -37,7 +37,8 @@ _PARTS = 15  # chunks at most
 _SAME = 1e-6  # logarithm of a probability: a smaller difference is rounding
 #: How much rarer two faults at once are than one of them, and what acts is where it was than off.
 RARER = math.log(1000.0)
-_LEADS = 8  # faults of which pairs with every other one are looked at
+BEHIND = 30.0  #: evidence that a fault may lack and still be worth another onset or size
+FLAT = 0.01  #: evidence that is none: a size does no more than it does as a tangent
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
 
 
@@ -133,37 +134,13 @@ class Evidence:
     def explained(self, cases: Sequence[Case]) -> list[list[Explained]]:
         """How well each fault of each case explains the rows, in the order of the hypotheses."""
         first = list(accumulate([len(case.hypotheses) for case in cases], initial=0))
-        faults = [[(case, numbers, start) for numbers in _by_fault(case).values()]
+        faults = [[(case, numbers, start) for numbers in by_fault(case).values()]
                   for case, start in zip(cases, first, strict=False)]  # fmt: skip
         sets = [[start + j for j in own] for case, numbers, start in chain(*faults)
                 for own in (*([j] for j in _sized(case, numbers)), _at_once(case, numbers))
                 if own]  # fmt: skip
         fits = self._fits(cases, sets)
         return [[self._fault(*one, fits) for one in own] for own in faults]
-
-    def pairs(self, case: Case, singles: Sequence[Explained]) -> list[ExplainedPair]:
-        """How well two faults at once explain the rows, the best pair first.
-
-        Each fault acts in any way that has a size, and one of both is among those that explain most
-        alone: the first step of a search that adds one fault at a time. Two faults have the same
-        scales, and the prior of one.
-        """
-        leads = sorted(singles, key=lambda e: -e.evidence)
-        ways = _by_fault(case)
-        sized = (
-            [j for j in ways.get(e.fault, ()) if case.hypotheses[j].held is None] for e in leads
-        )
-        place = [own for own in sized if own]  # what is held only takes nobody's place
-        pairs = [
-            pair
-            for at, own in enumerate(place[:_LEADS])
-            for others in place[at + 1 :]
-            for pair in product(own, others)
-        ]
-        found: dict[tuple[str, ...], ExplainedPair] = {}
-        for two in sorted(self.both(case, pairs), key=lambda two: -two.evidence):
-            found.setdefault(tuple(h.fault for h in two.hypotheses), two)
-        return list(found.values())
 
     def both(self, case: Case, pairs: Sequence[tuple[int, int]]) -> list[ExplainedPair]:
         """How well two hypotheses at once explain the rows, by their numbers, in this order."""
@@ -241,7 +218,7 @@ def explain(
     return Evidence(rows, history).explained([Case(hypotheses, rows.slopes, others)])[0]
 
 
-def _by_fault(case: Case) -> dict[str, list[int]]:
+def by_fault(case: Case) -> dict[str, list[int]]:
     """The numbers of the hypotheses of each fault."""
     found: dict[str, list[int]] = {}
     for j, hypothesis in enumerate(case.hypotheses):

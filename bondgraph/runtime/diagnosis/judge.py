@@ -16,20 +16,14 @@ from bondgraph.runtime.diagnosis.naming import (
     LONGEST,
     Judgement,
     Latched,
-    OneOrTwo,
-    candidates,
     classes,
-    explains,
-    fits,
     named,
     news,
-    one_or_two,
-    pairs_that_can,
-    possible,
-    suspects,
     update,
 )
+from bondgraph.runtime.diagnosis.possible import candidates, explains, fits, possible, suspects
 from bondgraph.runtime.diagnosis.rows import Row, weight
+from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo, one_or_two, pairs_that_can
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Iterable, Mapping, Sequence
+from functools import partial
 from itertools import accumulate
 
 import numpy as np
@@ -12,6 +13,8 @@ from bondgraph.runtime.diagnosis.healthy import drifting
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead, Stuck, staying
 from bondgraph.runtime.diagnosis.isolation import (
+    BEHIND,
+    FLAT,
     Case,
     Evidence,
     Explained,
@@ -22,7 +25,7 @@ from bondgraph.runtime.diagnosis.isolation import (
 from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.row_sums import Moves, Told, told
 from bondgraph.runtime.diagnosis.rows import Row
-from bondgraph.runtime.diagnosis.two_at_once import showing
+from bondgraph.runtime.diagnosis.two_at_once import both
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
 from bondgraph.text.tuples import NamedTuple
@@ -36,12 +39,9 @@ _ROUNDS = 12  # of looking for a size
 _SMALL = 1e-5  # of the usual change: for less a tangent does
 _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
 _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
-_BEHIND = 30.0  # evidence that a fault may lack and still be worth another onset or size
 _AGAIN = 1.5  # times the rows with which onsets and sizes were looked for, until they are again
 _STEP, _FINE = 2.0, 1.03  # factors between sizes that are compared, at first and at last
-_PAIRS, _TOGETHER = 8, 4  # pairs whose sizes beside each other are looked for, and rounds of it
 _HUGE = 1e100  # a slope beyond it is that of a law that has run over
-_FLAT = 0.01  # evidence that is none: a size does no more than it does as a tangent
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _AT_ONCE = 2**19  # slopes that onsets take side by side
@@ -104,14 +104,7 @@ class _Sized(NamedTuple):
         """Whether another change is nearer to the one that is found with it, or explains more."""
         if other.apart != self.apart:
             return other.apart < self.apart
-        return other.evidence > self.evidence + _FLAT
-
-
-class _Both(NamedTuple):
-    """Two at once, with what they do in these sizes."""
-
-    two: ExplainedPair
-    case: Case
+        return other.evidence > self.evidence + FLAT
 
 
 class SinceOnset:
@@ -223,55 +216,27 @@ class SinceOnset:
     def pairs(
         self, history: History, singles: Sequence[Explained]
     ) -> tuple[list[Explained], list[ExplainedPair]]:
-        """How well each fault explains the rows and how well two at once do, to be compared.
+        """How well each fault explains the rows and how well two at once do: see `both`.
 
-        Two of the `singles`, each with its onset and size. How a fault sets in is not known:
-        whether one is enough does not hang on that, nor on what parameters of a healthy machine
-        may drift by meanwhile. But which two it is, and how large they are, is known best with it:
-        some show only then. And each of both has to show (see `showing`).
+        Two of the `singles`, each with its onset and size.
         """
         seen = self._told_by()
         rows, (others,) = self._weighed(seen, [self._held])
-        whole, case = Evidence(rows, history), Case(self._all, rows.slopes, others)
-        found = whole.pairs(case, singles)
-        near = sum(two.evidence >= found[0].evidence - _BEHIND for two in found[:_PAIRS])
-        bent = [self._both(whole, seen, rows, two) for two in found[:near]]
-        for one in (rows, *others.values()):
-            one.weight[:] = 1.0 / (inverse(one.weight) + _early(one.value, 1.0))
-        evidence = Evidence(rows, history.drifted(drifting(self._tolerated)))
-        later = [two for own in bent for two in evidence.both(own.case, [(0, 1)])]
-        later += evidence.both(case, [self._numbers(two) for two in found[near:]])
-        moved = [own.case.slopes for own in bent]
-        moved += [rows.slopes[:, self._numbers(two)] for two in found[near:]]
-        found[:near] = [own.two for own in bent]
-        found = [again._replace(changes=two.changes, whole=two.whole)
-                 for again, two in zip(later, found, strict=True)]  # fmt: skip
-        found = [found[k] for k in showing(seen, rows, found, moved)]
-        return evidence.explained([case])[0], sorted(found, key=lambda two: -two.whole)
+        case, drifts = Case(self._all, rows.slopes, others), drifting(self._tolerated)
+        known, early = (history, history.drifted(drifts)), _early(rows.value, 1.0)
+        return both(seen, rows, case, singles, known, early, partial(self._bent, seen))
 
-    def _numbers(self, two: ExplainedPair) -> tuple[int, int]:
-        return self._all.index(two.hypotheses[0]), self._all.index(two.hypotheses[1])
+    def _bent(self, seen: Told, changes: Mapping[int, float]) -> Array | None:
+        """Slopes of hypotheses, by their numbers, up to such changes, if they are known.
 
-    def _both(self, evidence: Evidence, seen: Told, rows: Rows, two: ExplainedPair) -> _Both:
-        """Two at once with slopes up to the sizes that they have beside each other.
-
-        That is not the size with which one of them explains most alone. Without the samples behind
-        the rows it is all that is known.
+        Without the samples behind the rows there are none.
         """
-        own = self._numbers(two)
-        best = _Both(two, Case(two.hypotheses, rows.slopes[:, own]))
-        for _ in range(_TOGETHER if len(self._past) == len(self._rows) else 0):
-            changes = self._secants(dict(zip(own, best.two.changes, strict=True)))
-            anew = [self._begun([k], self._tried[k][0], changes).moves for k in own]
-            slopes = [seen.forms.of(moves) for moves in anew]
-            case = Case(two.hypotheses, np.concatenate(slopes, axis=1))
-            if not (np.abs(case.slopes) < _HUGE).all():
-                break
-            (again,) = evidence.both(case, [(0, 1)])
-            if again.evidence <= best.two.evidence + _FLAT:
-                break
-            best = _Both(again, case)
-        return best
+        if len(self._past) != len(self._rows):
+            return None
+        secants = self._secants(changes)
+        anew = [self._begun([k], self._tried[k][0], secants).moves for k in changes]
+        slopes = np.concatenate([seen.forms.of(moves) for moves in anew], axis=1)
+        return slopes if (np.abs(slopes) < _HUGE).all() else None
 
     def _found(self, history: History) -> list[Explained]:
         """How well each fault explains the rows as they are known now."""
@@ -317,7 +282,7 @@ class SinceOnset:
         `found` by then leaves out the faults that no other onset makes probable.
         """
         top = max((one.evidence for one in found), default=0.0)
-        behind = {one.fault for one in found if one.evidence < top - _BEHIND}
+        behind = {one.fault for one in found if one.evidence < top - BEHIND}
         every = [k for k, one in enumerate(self._all) if one.fault not in behind]
         changes = self._changes()
         best: dict[str, tuple[float, _Begun]] = {}
@@ -498,7 +463,7 @@ class SinceOnset:
         self._larger(evidence, seen, best, wanted)
         steps = dict.fromkeys(wanted, _STEP)
         for _ in range(_ROUNDS):
-            top = max(one.told for one in best.values()) - _BEHIND if best else 0.0
+            top = max(one.told for one in best.values()) - BEHIND if best else 0.0
             steps = {k: step for k, step in steps.items()
                      if step > _FINE and (step == _STEP or best[k].told >= top)}  # fmt: skip
             at = {k: best[k].change or wanted[k] for k in steps}
@@ -506,7 +471,7 @@ class SinceOnset:
             tried = [self._larger(evidence, seen, best, {k: at[k] * steps[k] ** way for k in steps})
                      for way in (1, -1)]  # fmt: skip
             for k, step in steps.items():
-                if all(abs(own[k] - before[k].evidence) <= _FLAT for own in tried):
+                if all(abs(own[k] - before[k].evidence) <= FLAT for own in tried):
                     steps[k] = 1.0  # the law is straight
                 elif best[k] is before[k]:
                     steps[k] = math.sqrt(step)

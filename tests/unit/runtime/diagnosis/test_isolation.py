@@ -23,8 +23,9 @@ from bondgraph.runtime.diagnosis.isolation import (
     explain,
     probabilities,
 )
-from bondgraph.runtime.diagnosis.naming import OneOrTwo, named, update
+from bondgraph.runtime.diagnosis.naming import named, update
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo, searched
 
 _SCALES = [1e-4 * 10.0 ** (k / 4.0) for k in range(33)]
 _CHUNK, _PARTS, _KEEP = 4, 15, 0.95
@@ -106,7 +107,7 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
     rows = Rows(value[before:], weight[before:], rest[before:], slopes)
     singles = explain(rows, hypotheses, history)
     found = {e.fault: e for e in singles}
-    (pair,) = Evidence(rows, history).pairs(Case(hypotheses, slopes), singles)
+    (pair,) = searched(Evidence(rows, history), Case(hypotheses, slopes), singles)
 
     shared = _flat(rest)
     healthy = np.diag(1.0 / weight.ravel()) + shared @ np.diag(spread**2) @ shared.T
