@@ -39,6 +39,7 @@ from bondgraph.runtime.diagnosis.rows import (
     weight,
 )
 from bondgraph.runtime.diagnosis.sensor_offsets import SensorOffsets, sensor_offsets
+from bondgraph.runtime.diagnosis.shared_noise import SharedNoise
 from bondgraph.runtime.diagnosis.signal_checks import SignalChecks, Unusual
 from bondgraph.runtime.diagnosis.standing import Levels
 from bondgraph.runtime.diagnosis.status import WatchStatus
@@ -75,8 +76,9 @@ class Diagnosis:
         self._offsets = SensorOffsets(offsets, len(own), place)
         spread = np.append(spread, np.zeros(len(offsets)))
         self._lasting = len(spread)  # those that stay; starts that were estimated stand behind
-        self._history = History(spread)
         used = np.array([name in model.sees for name in engine.residuals], dtype=bool)
+        self._shared = SharedNoise(len(used), self._every * engine.sample_time)
+        self._history = History(spread, self._shared)
         self._status = WatchStatus(engine, used)
         self._doubt = Doubt(engine, model)
         self._origins = Origins(engine, model.memories, self._every)
@@ -123,6 +125,7 @@ class Diagnosis:
         self._detection.restart()
         self._judge.restart()
         self._checks.restart()
+        self._shared.restart()
         if self._learning is not None:
             self._learning.restart()
 
@@ -354,6 +357,7 @@ class Diagnosis:
             old = self._calm.popleft()
             self._stands(old)
             sound = ~self._offsets.steep(old, self._history)
+            self._shared.add(self._history.innovation(old, sound), self._limits)
             self._history = self._history.drifted(drifting(self._tolerated), rows=1)
             self._history.add(*steady(old, self._weight(old) * sound))
             self._offsets.learned(old, self._history)
@@ -531,6 +535,7 @@ class Diagnosis:
         gone = [before[k] for k in more if k in before]
         history = other._history.anew(gone, [before[k] for k in keep], priors)
         self._history = history.ordered([[*keep, *more].index(k) for k in keys])
+        self._shared = other._shared
         self._tolerated = known
         self.restart()
         self._detection = other._detection
@@ -561,13 +566,14 @@ class Diagnosis:
             "unusual": self._checks.state(),
             "driving": self._learning and self._learning.state(),
             "levels": self._levels.state(),
+            "shared": self._shared.state(),
         }
 
     def resume(self, state: dict[str, Any]) -> None:
         """Go on from a state: limits that were learned, what is known of parameters and faults."""
         levels = array(state["limits"], self._limits.shape)
         known = (*self._tolerated[: self._lasting], *starts_in(state["origins"]))
-        history = History(array(state["prior"], (len(known),)))
+        history = History(array(state["prior"], (len(known),)), self._shared)
         history.root = array(state["history"], history.root.shape)
         detection = self._detection.resumed(state)
         latched = None if state["latched"] is None else Latched.resumed(state["latched"])
@@ -581,6 +587,8 @@ class Diagnosis:
         self._origins.resume(state["origins"])
         self._checks.resume(state["unusual"])
         self._levels.resume(state["levels"])
+        if state.get("shared"):  # none before 2026-11-29
+            self._shared.resume(state["shared"])
         if self._learning is not None:
             self._learning.resume(levels, state["driving"])
             self._limits = levels

@@ -9,6 +9,7 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.noise import COVERED, left_for_drift
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.shared_noise import SharedNoise
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 
@@ -27,8 +28,8 @@ class History:
     and encoders beside tolerances of a millionth need all of them (Bierman, 1977).
     """
 
-    def __init__(self, prior: Array) -> None:
-        self.prior = prior
+    def __init__(self, prior: Array, shared: SharedNoise | None = None) -> None:
+        self.prior, self.shared = prior, shared
         self.root = np.zeros((len(prior), len(prior) + 1))
         self._known: tuple[Array, Array] | None = None  # of which root, and what is known by it
 
@@ -49,7 +50,8 @@ class History:
         order = [*own, *rest, -1]
         owed = np.vstack([self.root[:, order], np.eye(len(own), len(order))])
         left = triangle(owed)[len(own) : len(self.prior), len(own) :]
-        found = History(np.concatenate([self.prior[kept], np.array(more, dtype=float)]))
+        prior = np.concatenate([self.prior[kept], np.array(more, dtype=float)])
+        found = History(prior, self.shared)
         for at, k in enumerate(kept):
             if k in rest:
                 found.root[: len(left), at] = left[:, rest.index(k)]
@@ -58,7 +60,7 @@ class History:
 
     def ordered(self, order: Sequence[int]) -> History:
         """The same with the parameters in another order."""
-        found = History(self.prior[list(order)])
+        found = History(self.prior[list(order)], self.shared)
         found.root = self.root[:, [*order, -1]]
         return found
 
@@ -91,7 +93,7 @@ class History:
         moves = COVERED * math.sqrt(rows / _DRIFTS)
         first = np.eye(len(own), len(own) + self.root.shape[1]) / moves
         moved = np.vstack([first, np.hstack([-self.root[:, own], self.root])])
-        found = History(self.prior)
+        found = History(self.prior, self.shared)
         found.root = triangle(moved)[len(own) :, len(own) :]
         return found
 

@@ -24,6 +24,7 @@ from bondgraph.runtime.diagnosis.history import History, triangle
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
 from bondgraph.runtime.diagnosis.model_error import SHARE, shares, unroot
 from bondgraph.runtime.diagnosis.rows import CORRELATED
+from bondgraph.runtime.diagnosis.shared_noise import Shared
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.text.tuples import NamedTuple
 
@@ -82,7 +83,8 @@ class Rows(NamedTuple):
     Value and weight (1/variance, 0 where not valid) have the shape (rows, residuals). `rest` are
     the slopes by the parameters with a tolerance, which have been off for ever, `slopes` those by
     the hypotheses, which hold since the onset: (rows, parameters or hypotheses, residuals). `alone`
-    are values that share no noise with those before them, as others do (`CORRELATED`).
+    are values that share no noise with those before them, as others do (`CORRELATED`), `shared` is
+    the noise that residuals share.
     """
 
     value: Array
@@ -90,6 +92,7 @@ class Rows(NamedTuple):
     rest: Array
     slopes: Array
     alone: Mask | None = None
+    shared: Shared | None = None
 
     @property
     def values(self) -> int:
@@ -256,6 +259,13 @@ class _Seen:
         error = SHARE * rows.value[:, :, None]
         ever = math.sqrt(own.ever) * error * np.eye(residuals)
         self._unroot = unroot(self._chunks(error)[..., 0], own)
+        self._kin: list[tuple[npt.NDArray[np.intp], Array]] = []
+        if rows.shared is not None:
+            noise = np.concatenate([np.zeros((-count % self.length, residuals)),
+                                    rows.shared.noise * rows.weight])  # fmt: skip
+            kept = np.square(np.diagonal(self._unroot, axis1=2, axis2=3)).transpose(0, 2, 1)
+            share = noise * kept.reshape(noise.shape)
+            self._kin = rows.shared.unroots(share)
         table = [rows.rest.transpose(0, 2, 1) * prior, ever, rows.value[:, :, None]]
         self.table = self._white(np.concatenate(table, axis=2))
 
@@ -280,8 +290,11 @@ class _Seen:
     def _white(self, table: Array) -> Array:
         _finite(table)
         white = self._unroot @ self._chunks(table).transpose(0, 2, 1, 3)
+        white = white.transpose(0, 2, 1, 3)
+        for own, apart in self._kin:
+            white[:, :, own] = apart.reshape(*white.shape[:2], *apart.shape[1:]) @ white[:, :, own]
         _finite(white)
-        return white.transpose(0, 2, 1, 3).reshape(len(white), -1, table.shape[2])
+        return white.reshape(len(white), -1, table.shape[2])
 
 
 class _Fits(NamedTuple):

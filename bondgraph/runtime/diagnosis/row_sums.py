@@ -84,6 +84,11 @@ class Told(NamedTuple):
     rest: Array
     noise: Array
 
+    @property
+    def variance(self) -> Array:
+        """That of the noise, (rows, residuals), zero where nobody knows it."""
+        return np.where(np.isfinite(self.noise), CORRELATED * self.noise**2, 0.0)
+
     def weights(self, value: Array) -> Array:
         """One over the variance of residuals that have these values, (rows, residuals)."""
         return weights(value, self.valid, self.bound, self.doubt, self.noise)

@@ -25,6 +25,7 @@ from bondgraph.runtime.diagnosis.isolation import (
 from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.row_sums import Moves, Told, told
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.shared_noise import Shared
 from bondgraph.runtime.diagnosis.two_at_once import both
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
@@ -221,7 +222,7 @@ class SinceOnset:
         Two of the `singles`, each with its onset and size.
         """
         seen = self._told_by()
-        rows, (others,) = self._weighed(seen, [self._held])
+        rows, (others,) = self._weighed(history, seen, [self._held])
         case, drifts = Case(self._all, rows.slopes, others), drifting(self._tolerated)
         known, early = (history, history.drifted(drifts)), _early(rows.value, 1.0)
         return both(seen, rows, case, singles, known, early, partial(self._bent, seen))
@@ -240,7 +241,7 @@ class SinceOnset:
 
     def _found(self, history: History) -> list[Explained]:
         """How well each fault explains the rows as they are known now."""
-        rows, (others,) = self._weighed(self._told_by(), [self._held])
+        rows, (others,) = self._weighed(history, self._told_by(), [self._held])
         found = Evidence(rows, history).explained([Case(self._all, rows.slopes, others)])[0]
         return [self._placed(one) for one in found]
 
@@ -257,14 +258,16 @@ class SinceOnset:
         return told(self._before, rows, limits)
 
     def _weighed(
-        self, seen: Told, cases: Sequence[Mapping[int, _Held]]
+        self, history: History, seen: Told, cases: Sequence[Mapping[int, _Held]]
     ) -> tuple[Rows, list[dict[int, Rows]]]:
         """The rows as they were told, and as they should have been told in each of some cases.
 
         All are compared by the same rows, at any onset.
         """
         slopes = seen.forms.of(self._moves)
-        rows = Rows(seen.value, seen.weights(seen.value), seen.rest, slopes, seen.forms.sums)
+        weight, sums, kin = seen.weights(seen.value), seen.forms.sums, history.shared
+        shared = None if kin is None else Shared(seen.variance, sums, kin.correlations())
+        rows = Rows(seen.value, weight, seen.rest, slopes, sums, shared)
         found = [{k: _instead(seen, rows, own) for k, own in held.items()} for held in cases]
         every = [one for others in found for one in others.values()]
         for other in every:
@@ -293,7 +296,7 @@ class SinceOnset:
             begun = [self._begun([k for k in every if not own.smooth or k in self._dynamic],
                                  own, changes)
                      for own in onsets[start : start + at_once]]  # fmt: skip
-            rows, others = self._weighed(seen, [
+            rows, others = self._weighed(history, seen, [
                 {one.numbers.index(k): told for k, told in one.held.items()} for one in begun
             ])  # fmt: skip
             cases = [Case([self._all[k] for k in one.numbers], seen.forms.of(one.moves), told)
@@ -453,7 +456,7 @@ class SinceOnset:
         tangent takes for the size may be nothing like it.
         """
         seen = self._told_by()
-        rows, _ = self._weighed(seen, [])
+        rows, _ = self._weighed(history, seen, [])
         evidence = Evidence(rows, history)
         cases = [Case([self._all[k]], rows.slopes[:, [k]]) for k in self._sized]
         now = {k: one for k, (one,) in zip(self._sized, evidence.explained(cases), strict=True)}
@@ -534,7 +537,7 @@ def _instead(seen: Told, rows: Rows, held: _Held) -> Rows:
     weight[:_GROWS][~held.sound[:_GROWS] & (rows.weight[:_GROWS] > 0)] = np.nan
     rest = rows.rest.copy()
     rest[:, : moved.shape[1] - 1] += moved[:, 1:]
-    return Rows(value, weight, rest, rows.slopes[:, :0], rows.alone)
+    return Rows(value, weight, rest, rows.slopes[:, :0], rows.alone, rows.shared)
 
 
 def _joined(rows: Sequence[tuple[Row, Array]]) -> tuple[Array, list[int]]:
