@@ -51,6 +51,15 @@ def at_best(compilation: Compilation) -> tuple[tuple[str, ...], ...] | None:
     return compilation.maximum_isolability
 
 
+def told_apart_at_best(compilation: Compilation, how: str) -> str:
+    """What further residuals would tell apart, and how one gets these; empty if that is nothing."""
+    best, groups = at_best(compilation), compilation.signatures.groups
+    if best is None or len(best) <= len(groups):
+        return ""
+    line = f"{plural(len(best), 'group')} at best, whatever residuals are used"
+    return line if compilation.options.isolate else f"{line}: {how}"
+
+
 def _nothing(compilation: Compilation) -> str:
     """Why a model has no redundancy."""
     graph = compilation.graph

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from bondgraph.cli.reasons import at_best, message, missing, reasons
+from bondgraph.cli.reasons import message, missing, reasons, told_apart_at_best
 from bondgraph.cli.stuck import overall
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
 from bondgraph.ir.expr import topological
@@ -33,7 +33,8 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
             lines += [f"  {name}", *prose(why, columns, "    ")]
     if matrix.faults and matrix.residuals:
         lines += ["", "Fault signatures", *signature_table(matrix, columns)]
-        lines += _at_best(compilation)
+        more = told_apart_at_best(compilation, "compile --isolate adds residuals for them")
+        lines += ["", more] if more else []
     lines += _elsewhere(matrix, columns)
     lines += [f"  {r}  is not confirmed: {why}" for r, why in matrix.unconfirmed.items()]
     lines += _modes(compilation, columns)
@@ -59,17 +60,6 @@ def _checked(compilation: Compilation) -> str:
         f"checked exactly{at}: {plural(done.residuals, 'residual')} on the healthy model,"
         f" {plural(done.faults, 'fault')} one at a time"
     )
-
-
-def _at_best(compilation: Compilation) -> list[str]:
-    """What further relations would bring."""
-    best, groups = at_best(compilation), compilation.signatures.groups
-    if best is None or len(best) <= len(groups):
-        return []
-    lines = ["", f"{plural(len(best), 'group')} at best, whatever residuals are used"]
-    if not compilation.options.isolate:
-        lines[-1] += ": compile --isolate adds residuals for them"
-    return lines
 
 
 def _elsewhere(matrix: SignatureMatrix, columns: int) -> list[str]:

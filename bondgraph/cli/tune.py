@@ -17,6 +17,7 @@ from bondgraph.cli.options import (
     sample_rate,
     seconds,
 )
+from bondgraph.cli.reasons import told_apart_at_best
 from bondgraph.ir.residual_limit import NEVER
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.moment import lasting
@@ -320,6 +321,10 @@ def _lines(
     at_times = [f"{_name(s)} ({100 * s.share:.2g} % of them)" for s in hidden if s.share]
     if at_times:
         lines += ["", f"Shows in fewer windows, with some motion only: {', '.join(at_times)}"]
+    more = told_apart_at_best(compilation, "tune and monitor --isolate add residuals for them")
+    if more:
+        own = plural(len(compilation.signatures.groups), "group")
+        lines += ["", f"These residuals tell faults apart in {own}; {more}"]
     return [*lines, "", f"Written to {output}"]
 
 
