@@ -308,7 +308,8 @@ class Compilation:
             found = fit(*told, progress)
             watched = {bandwidth}
         else:
-            usual = bandwidth_for(rate, sum(log.rows for log in logs.values()))
+            lengths = [len(piece.samples) for _, piece in pieces]
+            usual = bandwidth_for(rate, sum(lengths), lengths)
             found = fit_by_filter(*told, usual, progress)
             watched = {bandwidth_for(rate, log.rows) for log in logs.values()}
             watched |= {tuned_bandwidth(rate, log.rows) for log in logs.values()}

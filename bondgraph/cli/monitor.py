@@ -152,8 +152,8 @@ def _publish_to(text: str | None, samples: Address | None) -> Address | None:
 
 
 def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
-    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
     from bondgraph.runtime.monitoring.columns import read_map
+    from bondgraph.runtime.monitoring.engine import setting
     from bondgraph.runtime.monitoring.journal import known_rate
     from bondgraph.runtime.monitoring.sample_pipeline import Monitor
     from bondgraph.runtime.monitoring.states import states_file
@@ -161,6 +161,7 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     from bondgraph.runtime.monitoring.watch_settings import (
         WatchSettings,
         sample_rate,
+        usual_bandwidth,
         watching,
         what_is_watched,
     )
@@ -168,12 +169,14 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     known = known_rate(args.journal) if args.journal else None
     tuning = read_tuning(args.tuning) if args.tuning else None
     rate = sample_rate(args.rate or known, source, tuning, Options().rate)
-    bandwidth = args.bandwidth
-    if bandwidth is None and tuning is None:  # with a journal the log may grow
-        bandwidth = bandwidth_for(rate, None if args.journal else source.samples())
-    compilation = realising(args, rate=rate, bandwidth=bandwidth)
+    compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
+    signals = setting(*compilation.runnable_programs).signals if args.map else ()
+    mapping = read_map(args.map, signals) if args.map else None
+    if args.bandwidth is None and tuning is None:  # with a journal the log may grow
+        grows = bool(args.journal)
+        bandwidth = usual_bandwidth(rate, source, grows, args.operating, mapping)
+        compilation = compilation.with_options(bandwidth=bandwidth)
     engine, decided = watching(compilation, tuning, note, args.accept)
-    mapping = read_map(args.map, engine.signals) if args.map else None
     journal = _journal(args.journal, compilation, source, engine, args.accept is not None)
     form = form_of(args, source.name)
     settings = WatchSettings(compilation, tuning, form, mapping, args.operating, args.accept)

@@ -336,6 +336,9 @@ class Pool:
                 collected[base] -= 1
                 signed = self.fn(SIGNED_SQUARE, inner)
                 collected[signed] = collected.get(signed, 0) + 1
+        if any(e < 0 for e in collected.values()):
+            for total in [b for b, e in collected.items() if e == 1 and b.op is _ADD]:
+                coefficient *= self._cancel(total, collected)
         kept = [n for n, e in collected.items() if e]
         if not kept:
             return self.num(coefficient)
@@ -345,6 +348,31 @@ class Pool:
             kept.sort(key=_ID)
             node = self._make(Op.MUL, tuple(kept), tuple([collected[n] for n in kept]))
         return node if coefficient == 1 else self.add((coefficient, node))
+
+    def _cancel(self, total: Expr, collected: dict[Expr, int]) -> Rational:
+        """Take out of a sum what stands in each of its terms and below it; a number is left.
+
+        (x a + x b)/x is a + b: where x is zero a machine goes on, and the quotient did not.
+        """
+        common: dict[Expr, int] | None = None
+        for term in total.args:
+            own = {b: min(e, -collected.get(b, 0)) for b, e in term.factors}
+            common = {b: min(e, own.get(b, 0)) for b, e in (common or own).items()}
+            common = {b: e for b, e in common.items() if e > 0}
+            if not common:
+                return 1
+        assert common is not None
+        for base, exponent in common.items():
+            collected[base] += exponent
+        less = [(b, -e) for b, e in common.items()]
+        left = self.add(*[(c, self._product([*t.factors, *less])) for c, t in total.terms])
+        collected[total] -= 1
+        factor, node = left.scaled
+        if node.op is _NUM:
+            return factor * whole(node.number)
+        for base, exponent in node.factors:
+            collected[base] = collected.get(base, 0) + exponent
+        return factor
 
     # ---------------------------------------------------------- functions
 

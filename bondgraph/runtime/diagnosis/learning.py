@@ -145,6 +145,7 @@ class Learning:
         self._driving.restart()
         self._now: list[_Settings] = [frozenset() for _ in self._wanted]  # in this row
         self._before: list[_Settings] = [frozenset() for _ in self._wanted]
+        self._sound = np.ones(len(self._wanted), dtype=np.bool_)  # that have a value in all of it
         self._peak[:] = -math.inf
 
     @property
@@ -197,9 +198,10 @@ class Learning:
             self._wanted[k], self.limits[k, 0] = True, math.inf
             fresh[k] = not now <= self._met[k]
             self._met[k] |= now
+        self._sound &= part.valid.all(axis=0)
         if self._driving:
             limit = self.limits[:, 2] * self.limits[:, 0]
-            sure = healthy & ~self._wanted & ~self.hopeless
+            sure = healthy & ~self._wanted & ~self.hopeless & self._sound
             anew = self._driving.anew(limit, sure)
             self._driving.show(part, limit)
             for k in np.flatnonzero(anew & sure).tolist():
@@ -308,6 +310,7 @@ class Learning:
                 rest = rest or self._rest()
                 fresh[k] = self._estimated(k, settings[k], *rest, int(held[k]))
         self._peak[:] = -math.inf
+        self._sound[:] = True
         self._now, self._before = [frozenset() for _ in self._now], self._now
         return fresh
 

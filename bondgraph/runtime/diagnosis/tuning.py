@@ -25,6 +25,9 @@ _SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filt
 UNKNOWN = 2.0  #: deviations of what is not known yet of a healthy machine, for which there is room
 FASTEST = 0.4  #: of the rate, rad: no filter has fewer samples to work with
 _LONGEST = 1200.0  # s of a log, or samples, that a tuned filter is chosen for: alarms end rows late
+#: Time constants after which a filter of second order has forgotten all but a thousandth, and the
+#: share of the samples of a log in pieces that comes behind that at least.
+_SETTLES, _SETTLED = 9.2, 0.5
 _ENOUGH = 75  # rows, of three time constants, that a log should have
 
 
@@ -162,20 +165,30 @@ def limits(known: Mapping[str, Limit], names: Sequence[str]) -> list[Limit]:
     return [known.get(name, _NEVER) for name in names]
 
 
-def bandwidth_for(rate: float, samples: float | None = None) -> float:
+def bandwidth_for(
+    rate: float, samples: float | None = None, pieces: Sequence[int] = ()
+) -> float:
     """The bandwidth (rad/s) of the filter for a log of so many samples, of an hour if none is told.
 
     A fiftieth of the rate makes the filter slow beside the samples. Where that would leave too few
     rows to learn from and to watch by, it is faster: as much as a log of this length needs, and no
-    faster than a few samples can follow.
+    faster than a few samples can follow. So it is where the log is in `pieces` of so many samples,
+    in each of which the filter has to settle: in half of them it has.
 
     >>> bandwidth_for(1000.0), bandwidth_for(1.0)
     (20.0, 0.08333333333333333)
     >>> bandwidth_for(1.0, 1200)
     0.2
+    >>> bandwidth_for(1.0, 8000, [800] * 10)
+    0.03333333333333333
     """
     rows = 3.6e3 * rate / 3.0 if samples is None else samples / 3.0  # with the rate as bandwidth
-    return rate / next((n for n in _SLOWER if rows / n >= _ENOUGH), _SLOWER[-1])
+
+    def settled(slower: int) -> bool:
+        left = sum(max(0.0, piece - _SETTLES * slower) for piece in pieces)
+        return left >= _SETTLED * sum(pieces)
+
+    return rate / next((n for n in _SLOWER if rows / n >= _ENOUGH and settled(n)), _SLOWER[-1])
 
 
 def tuned_bandwidth(rate: float, samples: float) -> float:

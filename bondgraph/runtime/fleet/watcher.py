@@ -12,7 +12,6 @@ from functools import lru_cache
 from threading import Lock
 from typing import Protocol
 
-from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.fleet.watched_log import Extent, WatchedLog
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_numbers import Form
@@ -26,6 +25,7 @@ from bondgraph.runtime.monitoring.watch_parts import Decision, Parts, Stop
 from bondgraph.runtime.monitoring.watch_settings import (
     WatchSettings,
     sample_rate,
+    usual_bandwidth,
     watching,
     what_is_watched,
 )
@@ -144,7 +144,8 @@ class Watcher:
             rate = sample_rate(settings.form.rate, source, settings.tuning, usual)
             bandwidth = settings.compilation.options.bandwidth
             if bandwidth is None and settings.tuning is None:
-                bandwidth = bandwidth_for(rate, source.samples())
+                asked = settings.operating, settings.mapping
+                bandwidth = usual_bandwidth(rate, source, False, *asked)
             made = self._at(rate, bandwidth)
             engine = made.engine.configured()
             parts = made.settings.parts(source, engine, made.decided(engine))

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Protocol
 
+import numpy as np
+
+from bondgraph.runtime.diagnosis.tuning import bandwidth_for
+from bondgraph.runtime.log import LogError, Mask
 from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.clock import clock_of
 from bondgraph.runtime.monitoring.columns import Columns, Mapped
@@ -119,6 +124,38 @@ def sample_rate(
     if tuning is not None and (own is None or abs(own / tuning.rate - 1.0) < _CLOCKS):
         own = tuning.rate
     return asked or own or usual
+
+
+def usual_bandwidth(
+    rate: float,
+    source: Source,
+    grows: bool = False,
+    operating: str | None = None,
+    mapping: Mapping[str, Mapped] | None = None,
+) -> float:
+    """The bandwidth (rad/s) of the filter of a watch without a tuning: see `bandwidth_for`.
+
+    Of a file that is on the disk as a whole the length is known, or what it is while the machine is
+    `operating`, in pieces; not of one that `grows`.
+    """
+    pieces: list[int] = []
+    if operating is not None and not grows:
+        on = Operating(operating, mapping, source.name)
+        with suppress(LogError):  # which is told where its samples come
+            pieces = _pieces([on(log) for log in source.whole()])
+    samples = float(sum(pieces)) if pieces else None if grows else source.samples()
+    return bandwidth_for(rate, samples, pieces)
+
+
+def _pieces(masks: Sequence[Mask]) -> list[int]:
+    """How many samples in a row hold, each time.
+
+    >>> _pieces([np.array([False, True, True]), np.array([True, False, True])])
+    [3, 1]
+    """
+    every = np.concatenate([[False], *masks, [False]])
+    turns = np.flatnonzero(every[1:] != every[:-1]).tolist()
+    return [end - start for start, end in zip(turns[::2], turns[1::2], strict=True)]
 
 
 def something_to_watch(compilation: Compiled) -> None:

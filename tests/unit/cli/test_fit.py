@@ -210,6 +210,22 @@ def test_a_log_is_read_as_the_other_commands_read_it(bondgraph: Command, folder:
     assert never.status == 1 and "holds for no sample" in never.err
 
 
+def test_a_machine_that_is_on_by_the_day_is_fitted(bondgraph: Command, folder: Path) -> None:
+    """On for 400 of each 500 samples, twenty times: a filter for 8000 in a row has not settled."""
+    t = np.arange(10_000) / 1000.0
+    i = np.sin(8.0 * t) + 0.5 * np.sin(21.0 * t)
+    rate = 8.0 * np.cos(8.0 * t) + 10.5 * np.cos(21.0 * t)
+    on = (np.arange(len(t)) % 500 >= 100).astype(float)
+    noise = 0.01 * np.random.default_rng(5).standard_normal(len(t))
+    columns = {"U": on * (3.0 * i + 1e-3 * rate), "y": on * i + noise, "on": on}
+    write_log(Log(t, columns, {}, {}), "days.csv")
+    done = bondgraph("fit", "c.bg", "days.csv", "--while", "on > 0", "-o", "p.toml")
+    assert done.status == 0, done.err
+    data = tomllib.loads((folder / "p.toml").read_text())
+    error = data["standard_errors"]["R"]
+    assert abs(data["parameters"]["R"] - 3.0) <= 3.0 * error < 0.03
+
+
 @pytest.mark.parametrize(
     ("words", "status", "said"),
     [

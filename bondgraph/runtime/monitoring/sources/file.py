@@ -67,6 +67,10 @@ class LoadedLog(Source):
         """See `Source`."""
         return float(self._log.rows)
 
+    def whole(self) -> Iterator[Log]:
+        """See `Source`."""
+        yield self._log
+
     def time(self) -> str:
         """See `Source`."""
         return self._log.meta.get(TIME, "")
@@ -136,6 +140,13 @@ class LinesFile(Source):
             head = file.read(_BLOCK // 8)
             size = os.fstat(file.fileno()).st_size
         return head.count(b"\n") * size / len(head) if head else None
+
+    def whole(self) -> Iterator[Log]:
+        """See `Source`."""
+        decoder = Decoder(self.decoder.form)
+        with self._open() as file:
+            while not self._follow and (lines := file.readlines(_BLOCK)):
+                yield from decoder.feed(b"".join(lines))
 
     def time(self) -> str:
         """See `Source`."""

@@ -87,6 +87,10 @@ class Source(ABC):
         """About how many samples there will be, where that can be known before the first one."""
         return None
 
+    def whole(self) -> Iterator[Log]:
+        """All samples, to look at them before they come; none where that cannot be."""
+        return iter(())
+
     def time(self) -> str:
         """What is taken for the time, where that is known before the first sample; else ""."""
         return ""
@@ -104,12 +108,15 @@ def rate_of(time: Array) -> float | None:
     """Samples a second, of the first ones, at times in s, as exactly as these tell it.
 
     A round number that is as near as the digits and the jitter of the times leave open, or a
-    crystal, is the rate; else the number with the fewest digits that is as near as the times tell.
+    crystal, is the rate; else that of the fewest digits, of it or of the step, that is as near as
+    the times tell.
 
     >>> rate_of(np.array([0.0, 0.0101, 0.0199, 0.0301, 0.5]))
     100.0
     >>> rate_of(np.round(np.arange(1000) / 610.35, 7))
     610.35
+    >>> 1.0 / rate_of(60.0 * np.arange(20000))
+    60.0
     >>> rate_of(np.sort(np.append(np.arange(1000.0), [12.02, 371.05, 802.03])))
     1.0
     """
@@ -123,7 +130,8 @@ def rate_of(time: Array) -> float | None:
     near = min((m * power for m in _ROUND), key=lambda r: abs(r / rate - 1.0))
     if abs(near / rate - 1.0) <= max(open_, _CRYSTAL):
         return near
-    told = (float(f"{rate:.{digits}g}") for digits in range(1, _DIGITS))
+    told = (own for digits in range(1, _DIGITS)
+            for own in (float(f"{rate:.{digits}g}"), 1 / float(f"{step:.{digits}g}")))  # fmt: skip
     return next((r for r in told if abs(r / rate - 1.0) <= max(open_, _SURE)), rate)
 
 

@@ -78,6 +78,31 @@ def test_who_is_watched_all_the_time_is_said_to_be_once(seed: int) -> None:
     assert any("above what a healthy machine does" in one for one in told)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_what_happens_while_filters_settle_is_no_motion(seed: int) -> None:
+    """Each morning a machine that was off fills its tank with five times the flow, and idles then.
+
+    A residual tells nothing of that, as it has no value yet: it knows its noise as before.
+    """
+    machine = _machine()
+    engine = machine.engine()
+    watch, base = machine.diagnosis(engine), engine.configured()
+    told = []
+    for day in range(4):
+        samples = _samples(seed + 10 * day, idle=2400)[:900]
+        if day:
+            watch.restart()
+            base.reset()
+            samples[:12] *= 5.0
+        time = np.arange(900) * 1.0 + 3000.0 * day
+        for k in range(0, 900, 15):
+            part = slice(k, k + 15)
+            told += watch.update(time[part], base.run(samples[part]), samples[part])
+    messages = [v.message for v in told]
+    assert not any("as never before" in one for one in messages)
+    assert sum("watched from now on" in one for one in messages) == 4
+
+
 def test_a_machine_that_idled_is_in_alarm_less_than_once_an_hour() -> None:
     said = [v for seed in range(12) for v in _watched(_machine(), _samples(seed))]
     # in 8 hours: with five it might be one an hour or more, at 95 %

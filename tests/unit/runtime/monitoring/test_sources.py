@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from pathlib import Path
 from threading import Event, Thread
 
 import numpy as np
 import pytest
 
+from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.log_numbers import Form
@@ -21,10 +23,12 @@ from bondgraph.runtime.monitoring.sources.sample_source import (
     Cutter,
     Intake,
     News,
+    Source,
     decoded,
     rate_of,
 )
 from bondgraph.runtime.monitoring.sources.streams import Pipe
+from bondgraph.runtime.monitoring.watch_settings import usual_bandwidth
 
 
 @pytest.fixture
@@ -43,6 +47,29 @@ def lines_file() -> Iterator[Callable[..., LinesFile]]:
 def times(chunks: Iterator[Chunk]) -> list[float]:
     return [t for chunk in chunks if chunk.log is not None for t in chunk.log.time.tolist()]
 
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_a_filter_settles_while_the_machine_is_on(suffix: str, tmp_path: Path) -> None:
+    """On for 400 of each 500 samples, twenty times: of these it has settled in half at least.
+
+    A filter that is 30 times slower than the samples needs 276 of them, 20 times slower 184.
+    """
+    path = str(tmp_path / f"log{suffix}")
+    t = np.arange(10_000.0)
+    on = (t % 500.0 >= 100.0).astype(float)
+    write_log(Log(60.0 * t, {"a": np.sin(t), "pump": 100.0 * on}, {}, {}), path)
+    rate = 1.0 / 60.0
+    with closing(file_source(path, Form(path))) as source:
+        _asked(rate, source)
+        assert times(source.chunks(Event()))[-1] == 60.0 * t[-1], "nothing of it is lost"
+
+
+def _asked(rate: float, source: Source) -> None:
+    assert usual_bandwidth(rate, source) == bandwidth_for(rate, 1e4) == rate / 30
+    assert usual_bandwidth(rate, source, False, "pump > 5") == rate / 20
+    assert usual_bandwidth(rate, source, False, "a > -2") == rate / 30
+    assert usual_bandwidth(rate, source, True, "pump > 5") == bandwidth_for(rate)
+    assert usual_bandwidth(rate, source, False, "none > 5") == rate / 30, "told with the samples"
 
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 def test_a_file_goes_on_from_any_place(suffix: str, tmp_path: Path) -> None:
