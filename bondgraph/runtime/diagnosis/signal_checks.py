@@ -188,7 +188,8 @@ class SignalChecks:
         self._range[:, beyond] = [bottom[beyond], top[beyond]]  # there it has been now
         self._driven = 0 if driven or beyond.any() else self._driven + 1
         if self._driven < _AFTER:
-            found = {n: one for n, one in found.items() if one.kind == "stuck"}
+            noisy = self._noisy()
+            found = {n: one for n, one in found.items() if one.kind == "stuck" or n in noisy}
         if not healthy or any(one.kind == "burst" for one in found.values()):
             self._waiting.clear()
         elif not found:
@@ -230,6 +231,10 @@ class SignalChecks:
                 del self.active[name]
         return fresh
 
+    def _noisy(self) -> set[str]:
+        """The signals whose noise was told and goes on, whatever a controller makes of it."""
+        return {name for name, one in self.active.items() if one.kind == "burst"}
+
     def lately(self, name: str) -> bool:
         """Whether a signal is unusual or was so a few rows ago, an encoder since it is suspect."""
         fresh = self._away.get(name, PAUSE) < _AFTER
@@ -242,8 +247,7 @@ class SignalChecks:
         what they see, unless several signals have had it lately: then it is of the machine.
         """
         least = np.full(len(self._names), _FLOOR)
-        told = [n for n, one in self.active.items() if one.kind == "burst"]
-        for name in told:
+        for name in self._noisy():
             least[self._names.index(name)] = 0.0 if name in suspects else _FLOOR / 2.0
         louder = np.stack([rough > self._rough[0], rough > self._louder() * self._rough[0]])
         self._loud = np.concatenate([self._loud[1:], louder[None]])
@@ -275,9 +279,10 @@ class SignalChecks:
             floor = _FLOOR * np.maximum(span, 1e-300)
             spike = far[0] > np.maximum(_OUT * self._far, floor)
             spike &= far[0] > _ALONE * far[2]
-            told = [n in self.active and self.active[n].kind == "burst" for n in self._names]
+            told = np.isin(self._names, list(self._noisy()))
             share = np.where(told, 0.5, 1.0)  # it goes on until it is half as much
-            louder = share * self._louder() * self._driving(rough, span) * self._rough[0]
+            driving = np.where(told, 1.0, self._driving(rough, span))  # that it may be itself
+            louder = share * self._louder() * driving * self._rough[0]
             burst = rough > np.maximum(louder, least * span)
             beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
             burst &= beside > share * np.minimum(_ROUGHER * self._rough[1], _WHITE)

@@ -396,6 +396,30 @@ def test_what_an_input_does_as_never_before_is_no_fault_of_a_sensor() -> None:
     assert seen == {(): {"u", "y"}, ("u",): set()}
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_noise_that_was_told_goes_on_whatever_a_controller_makes_of_it(seed: int) -> None:
+    """A temperature whose noise grows, and a valve that follows what is read of it.
+
+    At first the valve is as quiet as ever, then it moves as never before: it is told of nothing.
+    """
+    draw = np.random.default_rng(seed)
+    at = np.arange(6000)
+    loud = np.where((at >= 3000) & (at < 5000), np.where(at < 3200, 0.5, 2.0), 0.05)
+    read = 20.0 + 5.0 * np.sin(at / 400.0) + loud * draw.normal(size=6000)
+    valve = 0.5 + 0.05 * np.sin(at / 150.0) + 0.006 * (read - 20.0)
+    samples, said = np.column_stack([valve, read]), []
+    checks = SignalChecks(["v", "T"], [0, 1], _STEP, ("v",))
+    active = []
+    for k in range(0, 6000, _ROW):
+        if k == 4000:
+            checks.restart()  # the samples begin anew
+        said += checks.row(k * _STEP, samples[k : k + _ROW], not checks.active)
+        active += [k] * ("T" in checks.active)
+    assert [(one.signal, one.kind) for one in said] == [("T", "burst")]
+    assert active[0] <= 3100 and 5000 <= active[-1] <= 5300
+    assert active == list(range(active[0], active[-1] + 1, _ROW))
+
+
 @pytest.mark.parametrize(("resistance", "noise", "told"), [(1.6, 0.0, False), (1.0, 0.8, True)])
 def test_a_resistance_that_has_grown_is_no_noise_of_the_sensor_that_shows_it(
     resistance: float, noise: float, told: bool
