@@ -18,6 +18,7 @@ from bondgraph.cli.options import (
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.moment import often
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
@@ -286,7 +287,7 @@ def _lines(
     program, both = compilation.program, len(forms) > 1
     lines = [
         f"{compilation.graph.name}: {_message(compilation, rows)}",
-        f"{program.rate:g} samples a second, filter of {program.bandwidth:g} rad/s,"
+        f"{often(program.rate)}, filter of {program.bandwidth:g} rad/s,"
         f" {situation.kappa:g} sigma of noise",
         "",
         "Noise of the filtered residuals",

@@ -12,6 +12,7 @@ from bondgraph.ir.expr import topological
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.notation.dump_stages import residual_origin
 from bondgraph.pipeline import Compilation
+from bondgraph.text.moment import often
 from bondgraph.text.numerals import joined, plural
 from bondgraph.views import Relation
 
@@ -169,5 +170,5 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
             lines += note
     if not lines:
         return []
-    rate = f"{program.rate:g} samples a second, bandwidth {program.bandwidth:g} rad/s"
+    rate = f"{often(program.rate)}, bandwidth {program.bandwidth:g} rad/s"
     return ["", f"In step ({rate})", *lines]

@@ -14,6 +14,7 @@ from scipy.special import gammainc
 from bondgraph.ir.program import Known, Program
 from bondgraph.runtime.batch import Lanes
 from bondgraph.runtime.log import Array
+from bondgraph.text.moment import often
 from bondgraph.text.numerals import joined
 
 _STEP = 1e-4  # relative size of the change that a sensitivity is taken from
@@ -235,7 +236,7 @@ def told(
                 continue
             base = (fault.path, info.path)
             if info.unavailable or fault.path in info.invisible:
-                why = info.unavailable or f"not visible at {program.rate:g} samples a second"
+                why = info.unavailable or f"not visible at {often(program.rate)}"
                 rows.append(Smallest(*base, None, None, 0.0, 0.0, why))
                 continue
             if info in undefined:

@@ -21,6 +21,15 @@ def moment(seconds: float, form: str = ".3f") -> str:
     return found.isoformat(timespec="milliseconds").removesuffix("+00:00") + "Z"
 
 
+def often(rate: float) -> str:
+    """How often samples come, so many a second, as people read it.
+
+    >>> often(1000.0), often(1.0 / 60.0)
+    ('1000 samples a second', 'a sample every 60 s')
+    """
+    return f"{rate:g} samples a second" if rate >= 1.0 else f"a sample every {1.0 / rate:g} s"
+
+
 def lasting(seconds: float, form: str = ".3f") -> str:
     """How long something took, as people read it: nobody counts a week in s.
 

@@ -26,6 +26,7 @@ from bondgraph.ir.program import Program
 from bondgraph.ir.signature_matrix import ModeSignature, SignatureMatrix
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError, Diagnostic
+from bondgraph.text.moment import often
 from bondgraph.text.numerals import plural, readable
 
 _NODES = 1500  # of a drawing that still fits a page
@@ -168,7 +169,7 @@ def _facts(compilation: Compilation, program: Program | None) -> Iterator[tuple[
         wait = program.warmup / program.bandwidth
         yield (
             "Code",
-            f"{program.rate:g} samples a second, filter of {program.bandwidth:g} rad/s,"
+            f"{often(program.rate)}, filter of {program.bandwidth:g} rad/s,"
             f" valid {wait:.2g} s after the first sample",
         )
 

@@ -13,6 +13,7 @@ from bondgraph.notation.dump_stages import place, residual_origin
 from bondgraph.notation.line import show
 from bondgraph.passes.relation.path import path
 from bondgraph.pipeline import Compilation
+from bondgraph.text.moment import often
 from bondgraph.text.numerals import plural
 from bondgraph.views import Relation
 
@@ -164,7 +165,7 @@ def _notes(compilation: Compilation, relation: Relation, program: Program | None
     info = next(r for r in program.residuals if r.path == relation.name)
     if info.invisible:
         names = ", ".join(info.invisible)
-        notes.append(f"At {program.rate:g} samples a second its code cannot see {names}.")
+        notes.append(f"At {often(program.rate)} its code cannot see {names}.")
     if info.follows:
         notes.append(f"Its code is an observer that follows {info.follows}.")
     if info.approximate:

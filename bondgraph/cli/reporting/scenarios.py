@@ -27,6 +27,7 @@ from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.run import Run
 from bondgraph.runtime.simulation.scenario import Course, Sampling, Scenario
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.moment import often
 from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
@@ -205,7 +206,7 @@ def _said(seen: Watched) -> Iterator[Said]:
 
 def _facts(run: Run) -> Iterator[tuple[str, str]]:
     scenario = run.scenario
-    sampling = f"{scenario.duration:g} s at {scenario.sampling.rate:g} samples a second"
+    sampling = f"{scenario.duration:g} s at {often(scenario.sampling.rate)}"
     if scenario.sampling.jitter:
         sampling += f", jitter {100 * scenario.sampling.jitter:g} %"
     if scenario.sampling.lost:

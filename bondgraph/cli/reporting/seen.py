@@ -15,6 +15,7 @@ from bondgraph.backends.report.content import Effect, Pairs, Seen
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.reporting.relations import LONGEST
 from bondgraph.runtime.simulation.parameters import units
+from bondgraph.text.moment import often
 from bondgraph.text.numerals import listed, readable
 from bondgraph.text.tuples import NamedTuple
 
@@ -286,7 +287,7 @@ def _measured(
     words.append(
         f"A change counts as seen where it moves the residual past its adaptive threshold and"
         f" {given.kappa:g} standard deviations of the filtered noise:"
-        f" {program.rate:g} samples a second, a filter of {program.bandwidth:g} rad/s."
+        f" {often(program.rate)}, a filter of {program.bandwidth:g} rad/s."
     )
     return Assumed(given, tuple(words))
 

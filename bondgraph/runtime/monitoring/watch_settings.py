@@ -18,6 +18,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.operating import Operating
 from bondgraph.runtime.monitoring.watch_parts import Decision, Parts
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.moment import often
 from bondgraph.text.numerals import plural
 from bondgraph.text.tuples import NamedTuple
 
@@ -202,4 +203,4 @@ def watching(
 def what_is_watched(compilation: Compiled, engine: Engine) -> str:
     """How the first verdict of a watch begins."""
     watched = plural(len(compilation.diagnosis_model.sees), "residual")
-    return f"{compilation.graph.name}: {watched} at {1 / engine.sample_time:g} samples a second"
+    return f"{compilation.graph.name}: {watched} at {often(1 / engine.sample_time)}"
