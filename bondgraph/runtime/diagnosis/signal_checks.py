@@ -181,6 +181,11 @@ class SignalChecks:
                 one = Unusual(self._names[k], kind, since, float(now[k]), float(before[k]))
                 found[one.signal] = one
         driven = {n for n, one in found.items() if one.kind != "stuck" and n in self._inputs}
+        first = min((found[n].since for n in driven), default=math.inf)
+        causes = {n for n, one in found.items() if one.kind == "spike" and one.since < first}
+        answers = {n for n in driven if causes and found[n].kind == "spike"}
+        driven -= answers
+        found = {n: one for n, one in found.items() if n not in answers}
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
             before = self._range[1] - self._range[0]
             beyond = (span > 2.0 * before) & (span > 0.0)  # as far as all that it did before
@@ -188,8 +193,8 @@ class SignalChecks:
         self._range[:, beyond] = [bottom[beyond], top[beyond]]  # there it has been now
         self._driven = 0 if driven or beyond.any() else self._driven + 1
         if self._driven < _AFTER:
-            noisy = self._noisy()
-            found = {n: one for n, one in found.items() if one.kind == "stuck" or n in noisy}
+            known = self._noisy() | (causes if answers else set())
+            found = {n: one for n, one in found.items() if one.kind == "stuck" or n in known}
         if not healthy or any(one.kind == "burst" for one in found.values()):
             self._waiting.clear()
         elif not found:
@@ -501,7 +506,7 @@ def _answers(steered: Array, least: Array | float = 0.0) -> Mask:
     >>> on = np.zeros((40, 1))
     >>> on[25:] = 1.0
     >>> np.flatnonzero(_answers(on)).tolist()
-    [24, 25, 26, 27]
+    [25, 26, 27]
     >>> np.flatnonzero(_answers(np.arange(40)[:, None] // 4 % 2 * 1.0)).tolist()
     []
     """
@@ -510,6 +515,6 @@ def _answers(steered: Array, least: Array | float = 0.0) -> Mask:
     for column, most in zip(sizes.T, np.broadcast_to(least, sizes.shape[1]), strict=True):
         near = len(column) - np.searchsorted(np.sort(column), column / _ALONE)
         rare |= (column > most) & (near <= _RARE * len(column))
-    found = np.concatenate([np.zeros(_SIDE, dtype=np.bool_), rare, np.zeros(1, dtype=np.bool_)])
-    around = np.lib.stride_tricks.sliding_window_view(found, _SIDE + 2)
+    found = np.concatenate([np.zeros(_SIDE, dtype=np.bool_), rare])
+    around = np.lib.stride_tricks.sliding_window_view(found, _SIDE + 1)
     return np.asarray(around.any(axis=1))

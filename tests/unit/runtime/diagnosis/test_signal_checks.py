@@ -420,6 +420,27 @@ def test_noise_that_was_told_goes_on_whatever_a_controller_makes_of_it(seed: int
     assert active == list(range(active[0], active[-1] + 1, _ROW))
 
 
+@pytest.mark.parametrize("late", [1, 2, 0, -1])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_spike_that_a_controller_answers_is_that_of_its_sensor(late: int, seed: int) -> None:
+    """A valve that follows a temperature so many samples later; or one that leads it.
+
+    What comes first is the cause: behind a valve that jumps as never before a temperature may.
+    """
+    draw = np.random.default_rng(seed)
+    at = np.arange(4000)
+    read = 20.0 + 5.0 * np.sin(at / 400.0) + 0.05 * draw.normal(size=4000)
+    spikes = [2510, 2903, 3407]
+    read[spikes] += 4.0
+    valve = 0.5 + 0.02 * (np.roll(read, late) - 20.0)
+    checks, said = SignalChecks(["v", "T"], [0, 1], _STEP, ("v",)), []
+    for k in range(0, 4000, _ROW):
+        part = np.column_stack([valve, read])[k : k + _ROW]
+        said += checks.row((k + _ROW - 1) * _STEP, part, not checks.active)
+    assert {(one.signal, one.kind) for one in said} == ({("T", "spike")} if late > 0 else set())
+    assert [round(one.since / _STEP) for one in said] == (spikes if late > 0 else [])
+
+
 @pytest.mark.parametrize(("resistance", "noise", "told"), [(1.6, 0.0, False), (1.0, 0.8, True)])
 def test_a_resistance_that_has_grown_is_no_noise_of_the_sensor_that_shows_it(
     resistance: float, noise: float, told: bool
