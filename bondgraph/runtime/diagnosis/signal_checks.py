@@ -38,6 +38,7 @@ _WAIT = 3  # rows that have to be usual behind one whose noise is: a burst begin
 _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
 _SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
+_FOLLOWS = 0.5  # correlation from which on a command follows a sensor
 _RARE = 0.1  # share of the steps of a command that are about as large as one that is rare
 
 
@@ -132,6 +133,7 @@ class SignalChecks:
         self._steered = np.empty((0, len(self._steer)))  # commands and modes of these samples
         self._run = np.zeros(len(self._names))
         self._tail = np.empty((0, len(self._names)))
+        self._error = np.zeros((1, len(self._names)))  # of the last row, beside its neighbours
         self._waiting: deque[Array] = deque()  # as `_rough`, of the last healthy rows
         self._path = np.full((_LEAST, len(self._names)), math.nan)  # before each stood still last
         #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
@@ -181,11 +183,9 @@ class SignalChecks:
                 one = Unusual(self._names[k], kind, since, float(now[k]), float(before[k]))
                 found[one.signal] = one
         driven = {n for n, one in found.items() if one.kind != "stuck" and n in self._inputs}
-        first = min((found[n].since for n in driven), default=math.inf)
-        causes = {n for n, one in found.items() if one.kind == "spike" and one.since < first}
-        answers = {n for n in driven if causes and found[n].kind == "spike"}
-        driven -= answers
-        found = {n: one for n, one in found.items() if n not in answers}
+        causes = self._causes(driven, {*found, *self.active} - {*self._inputs})
+        if causes:  # what inputs do is what a controller makes of it
+            found, driven = {n: one for n, one in found.items() if n not in driven}, set()
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
             before = self._range[1] - self._range[0]
             beyond = (span > 2.0 * before) & (span > 0.0)  # as far as all that it did before
@@ -193,7 +193,7 @@ class SignalChecks:
         self._range[:, beyond] = [bottom[beyond], top[beyond]]  # there it has been now
         self._driven = 0 if driven or beyond.any() else self._driven + 1
         if self._driven < _AFTER:
-            known = self._noisy() | (causes if answers else set())
+            known = self._noisy() | causes
             found = {n: one for n, one in found.items() if one.kind == "stuck" or n in known}
         if not healthy or any(one.kind == "burst" for one in found.values()):
             self._waiting.clear()
@@ -236,6 +236,23 @@ class SignalChecks:
                 del self.active[name]
         return fresh
 
+    def _causes(self, driven: Collection[str], sensors: Collection[str]) -> set[str]:
+        """The sensors that all inputs which move as never before follow, if each of these does."""
+        led = [{n for n in sensors if self._leads(n, own)} for own in driven]
+        return set.union(*led) if led and all(led) else set()
+
+    def _leads(self, sensor: str, command: str) -> bool:
+        """Whether a command does what a sensor has shown some samples before: a controller reads
+        it. What a sensor shows of a machine that is driven comes with the command, or behind it.
+        """
+        one, other = (self._error[:, self._names.index(name)] for name in (sensor, command))
+        size = math.sqrt(float(one @ one) * float(other @ other))
+        along = [abs(float(one[: len(one) - max(lag, 0)][max(-lag, 0) :]
+                           @ other[max(lag, 0) :][: len(other) - max(-lag, 0)]))
+                 for lag in range(-_SIDE, _SIDE + 1)]  # fmt: skip
+        best = int(np.argmax(along))
+        return best > _SIDE and along[best] > _FOLLOWS * size
+
     def _noisy(self) -> set[str]:
         """The signals whose noise was told and goes on, whatever a controller makes of it."""
         return {name for name, one in self.active.items() if one.kind == "burst"}
@@ -268,13 +285,15 @@ class SignalChecks:
     def _driving(self, rough: Array, span: Array) -> Array:
         """How many times rougher than in any healthy row sensors may be by what drives them.
 
-        By as much as the input that is it most: a machine passes that on, one with a parameter that
-        has changed as any other. Of inputs nothing is expected so.
+        By as much as the input that is it most, but for those that follow it: a machine passes that
+        on, one with a parameter that has changed as any other. Of inputs nothing is expected so.
         """
         times = rough / np.maximum(self._rough[0], 1e-300)
-        driving = self._drive & (rough > _FLOOR * span)
-        most = float(np.max(times, where=driving, initial=1.0))
-        return np.where(self._drive, 1.0, most)
+        found = np.ones(len(times))
+        for k in np.flatnonzero(self._drive & (rough > _FLOOR * span) & (times > 1.0)).tolist():
+            follows = [self._leads(name, self._names[k]) for name in self._names]
+            found = np.where(follows, found, np.maximum(found, times[k]))
+        return np.where(self._drive, 1.0, found)
 
     def _unusual(
         self, far: Array, rough: Array, moved: Array, runs: Array, span: Array, least: Array
@@ -419,6 +438,7 @@ class SignalChecks:
         where the spike is."""
         near, next_, middle = _around(samples)
         error = middle - near * self._weights[:, 0] - next_ * self._weights[:, 1]
+        self._error = np.nan_to_num(error)
         off, inside = np.abs(error), slice(_SIDE, len(error) - _SIDE)
         before, after = samples[1:-3], samples[3:-1]
         median = np.clip(middle, np.minimum(before, after), np.maximum(before, after))

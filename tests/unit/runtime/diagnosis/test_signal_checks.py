@@ -441,6 +441,24 @@ def test_a_spike_that_a_controller_answers_is_that_of_its_sensor(late: int, seed
     assert [round(one.since / _STEP) for one in said] == (spikes if late > 0 else [])
 
 
+@pytest.mark.parametrize("late", [1, 2, 0, -1])
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_that_a_controller_passes_on_at_once_is_that_of_its_sensor(
+    late: int, seed: int
+) -> None:
+    """As before, with a temperature that becomes noisy, or a valve that the temperature follows."""
+    draw = np.random.default_rng(seed)
+    at = np.arange(4000)
+    loud = np.where((at >= 2500) & (at < 3200), 2.0, 0.05)
+    read = 20.0 + 5.0 * np.sin(at / 400.0) + loud * draw.normal(size=4000)
+    valve = 0.5 + 0.02 * (np.roll(read, late) - 20.0) + 1e-4 * draw.normal(size=4000)
+    checks, said = SignalChecks(["v", "T"], [0, 1], _STEP, ("v",)), []
+    for k in range(0, 4000, _ROW):
+        part = np.column_stack([valve, read])[k : k + _ROW]
+        said += checks.row((k + _ROW - 1) * _STEP, part, not checks.active)
+    assert [(one.signal, one.kind) for one in said] == ([("T", "burst")] if late > 0 else [])
+
+
 @pytest.mark.parametrize(("resistance", "noise", "told"), [(1.6, 0.0, False), (1.0, 0.8, True)])
 def test_a_resistance_that_has_grown_is_no_noise_of_the_sensor_that_shows_it(
     resistance: float, noise: float, told: bool
