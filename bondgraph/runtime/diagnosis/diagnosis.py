@@ -325,13 +325,16 @@ class Diagnosis:
         self._stood(self._limits[:, 4] - before)
         return fresh
 
-    def _stands(self, row: Row, first: bool = False) -> None:
-        """Where this machine stands while all is well, with a healthy row more."""
+    def _stands(self, row: Row, first: bool = False) -> Row:
+        """Where this machine stands while all is well, with a healthy row more; what is new in it.
+        """
         sound = ~self._offsets.steep(row, self._history)
-        value, bound, valid = beside(self._history.innovation(row, sound), self._limits)
+        new = self._history.innovation(row, sound)
+        value, bound, valid = beside(new, self._limits)
         moved = self._levels.learn(row.time, value, bound, valid & sound, first)
         self._limits[:, 4] += moved
         self._stood(moved)
+        return new
 
     def _stood(self, moved: Array) -> None:
         """So it did in the rows before."""
@@ -355,9 +358,8 @@ class Diagnosis:
         wait = int(_MEMORY) if waits else max(HEALTHY, int(self._detection.held.max(initial=0)))
         while len(self._calm) > wait:
             old = self._calm.popleft()
-            self._stands(old)
+            self._shared.add(self._stands(old), self._limits)
             sound = ~self._offsets.steep(old, self._history)
-            self._shared.add(self._history.innovation(old, sound), self._limits)
             self._history = self._history.drifted(drifting(self._tolerated), rows=1)
             self._history.add(*steady(old, self._weight(old) * sound))
             self._offsets.learned(old, self._history)

@@ -183,7 +183,8 @@ class SignalChecks:
                 one = Unusual(self._names[k], kind, since, float(now[k]), float(before[k]))
                 found[one.signal] = one
         driven = {n for n, one in found.items() if one.kind != "stuck" and n in self._inputs}
-        causes = self._causes(driven, {*found, *self.active} - {*self._inputs})
+        sensors = {n for n in (*found, *self.active) if n not in self._inputs}
+        causes = self._causes(driven, sensors & {*self._names})
         if causes:  # what inputs do is what a controller makes of it
             found, driven = {n: one for n, one in found.items() if n not in driven}, set()
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
