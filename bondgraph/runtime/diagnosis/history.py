@@ -22,10 +22,11 @@ _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 class History:
     """What healthy operation has told of parameters that are off within their tolerances.
 
-    `prior` are the standard deviations of the parameters. What is known is kept as a triangle and
-    what it should give, `root` = (R, q), for parameters z in deviations: the misfit of all rows
-    that were added is |R z - q|^2, forgotten slowly. Sums of squares would lose half of the digits,
-    and encoders beside tolerances of a millionth need all of them (Bierman, 1977).
+    `prior` are the standard deviations of the parameters, and `shared` is what residuals share of
+    their noise, if that is learned. What is known is kept as a triangle and what it should give,
+    `root` = (R, q), for parameters z in deviations: the misfit of all rows that were added is
+    |R z - q|^2, forgotten slowly. Sums of squares would lose half of the digits, and encoders
+    beside tolerances of a millionth need all of them (Bierman, 1977).
     """
 
     def __init__(self, prior: Array, shared: SharedNoise | None = None) -> None:

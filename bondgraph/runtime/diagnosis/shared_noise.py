@@ -2,7 +2,7 @@
 
 What two residuals read of one noisy sensor says the same twice, and what is left of one beside the
 other says more than either: the balance of heat of a tank that is drained is as noisy as its
-balance of water, and beside that it tells a hundredth of a kelvin.
+balance of water, and beside that a tenth of the noise is left.
 """
 
 from __future__ import annotations
