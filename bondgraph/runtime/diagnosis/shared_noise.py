@@ -26,7 +26,7 @@ _SURE = 2.0  # deviations by which a correlation is taken for less than rows sho
 _MEMORY = 1.5  # differences of independent rows that tell as much as one: neighbours share a row
 _FAR = 4.0  # deviations that a difference counts for at most
 _ALIKE = 0.1  # of its deviation: the least noise of a residual beside all others
-_MOST = 24  # residuals at most whose noise is taken as shared
+_MOST = 24  # residuals of a group, at most, whose noise is taken as shared
 
 
 class SharedNoise:

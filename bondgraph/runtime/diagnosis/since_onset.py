@@ -26,7 +26,7 @@ from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.row_sums import Moves, Told, told
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.shared_noise import Shared
-from bondgraph.runtime.diagnosis.two_at_once import both
+from bondgraph.runtime.diagnosis.two_at_once import pairs
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
 from bondgraph.text.tuples import NamedTuple
@@ -217,7 +217,7 @@ class SinceOnset:
     def pairs(
         self, history: History, singles: Sequence[Explained]
     ) -> tuple[list[Explained], list[ExplainedPair]]:
-        """How well each fault explains the rows and how well two at once do: see `both`.
+        """How well each fault explains the rows and how well two do: see `two_at_once.pairs`.
 
         Two of the `singles`, each with its onset and size.
         """
@@ -225,7 +225,7 @@ class SinceOnset:
         rows, (others,) = self._weighed(history, seen, [self._held])
         case, drifts = Case(self._all, rows.slopes, others), drifting(self._tolerated)
         known, early = (history, history.drifted(drifts)), _early(rows.value, 1.0)
-        return both(seen, rows, case, singles, known, early, partial(self._bent, seen))
+        return pairs(seen, rows, case, singles, known, early, partial(self._bent, seen))
 
     def _bent(self, seen: Told, changes: Mapping[int, float]) -> Array | None:
         """Slopes of hypotheses, by their numbers, up to such changes, if they are known.

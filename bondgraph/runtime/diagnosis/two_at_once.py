@@ -47,7 +47,7 @@ class _Sized(NamedTuple):
     case: Case
 
 
-def both(
+def pairs(
     seen: Told,
     rows: Rows,
     case: Case,

@@ -6,25 +6,16 @@ import pytest
 
 import bondgraph
 from bondgraph.ir.signature_matrix import DoubleFaults
-from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, hypotheses
-from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
+from bondgraph.runtime.diagnosis.hypotheses import hypotheses
+from bondgraph.runtime.diagnosis.isolation import Explained
 from bondgraph.runtime.diagnosis.naming import candidate, update
 from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo
-
-
-def _explained(fault: str, evidence: float, change: float = 0.1) -> Explained:
-    hypothesis = Hypothesis(fault, "value", "", 1.0, True)
-    return Explained(fault, evidence, hypothesis, change, 0.01, 0.5, 40)
-
-
-def _pair(a: str, b: str, left: float, *changes: float) -> ExplainedPair:
-    ways = [Hypothesis(name, "value", "Ohm", 1.0, True) for name in (a, b)]
-    return ExplainedPair((ways[0], ways[1]), 50.0, (changes[0], changes[1]), left, 40)
+from tests.unit.runtime.diagnosis.explanations import explained, pair_of
 
 
 def test_what_looks_like_two_at_once_is_told_by_rank() -> None:
-    single = [_explained("R", 9.0)._replace(left=30.0)]
-    pairs = [_pair("R", "f", 0.6, -0.5, -0.2)]
+    single = [explained("R", 9.0)._replace(left=30.0)]
+    pairs = [pair_of("R", "f", 0.6, -0.5, -0.2)]
     groups = (("R", "U"), ("f",), ("k",), ("c",))
     doubles = DoubleFaults(groups, ((), (), ((0, 1),), ()), "")
     verdict = update(5.0, 4.0, {"r1": 2.0}, (), single, OneOrTwo(False, pairs), doubles)
@@ -45,15 +36,15 @@ def test_a_class_says_whether_it_may_be_two_others() -> None:
     doubles = DoubleFaults((("R", "U"), ("f",), ("k",)), ((), (), ((0, 1),)), "")
     said = {
         fault: update(
-            5.0, 4.0, {"r1": 2.0}, group, [_explained(fault, 90.0)], OneOrTwo(), doubles
+            5.0, 4.0, {"r1": 2.0}, group, [explained(fault, 90.0)], OneOrTwo(), doubles
         ).message
         for fault, group in (("k", ("k",)), ("U", ("R", "U")), ("x", ("x",)))
     }
     ends = {fault: text.endswith("; or two others at once") for fault, text in said.items()}
     assert ends == {"k": True, "U": False, "x": False}
-    perhaps = update(5.0, 4.0, {}, ("x",), [_explained("x", 90.0)], OneOrTwo(perhaps=True), doubles)
+    perhaps = update(5.0, 4.0, {}, ("x",), [explained("x", 90.0)], OneOrTwo(perhaps=True), doubles)
     assert perhaps.message.endswith("; or two others at once")
-    more = update(5.0, 4.0, {"r1": 2.0}, (), [_explained("k", 90.0)], OneOrTwo(False), doubles)
+    more = update(5.0, 4.0, {"r1": 2.0}, (), [explained("k", 90.0)], OneOrTwo(False), doubles)
     assert more.message.startswith("no single fault explains this since 4.000 s: several at once")
 
 

@@ -3,21 +3,8 @@
 from __future__ import annotations
 
 from bondgraph.ir.signature_matrix import DoubleFaults
-from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
 from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo, one_or_two, pairs_that_can
-
-_SEES = {"r1": ("R", "k"), "r2": ("f", "k")}
-
-
-def _explained(fault: str, evidence: float, change: float = 0.1) -> Explained:
-    hypothesis = Hypothesis(fault, "value", "", 1.0, True)
-    return Explained(fault, evidence, hypothesis, change, 0.01, 0.5, 40)
-
-
-def _pair(a: str, b: str, left: float, *changes: float) -> ExplainedPair:
-    ways = [Hypothesis(name, "value", "Ohm", 1.0, True) for name in (a, b)]
-    return ExplainedPair((ways[0], ways[1]), 50.0, (changes[0], changes[1]), left, 40)
+from tests.unit.runtime.diagnosis.explanations import SEES, explained, pair_of
 
 
 def _doubles(*alike: tuple[tuple[int, ...], ...]) -> DoubleFaults:
@@ -26,9 +13,9 @@ def _doubles(*alike: tuple[tuple[int, ...], ...]) -> DoubleFaults:
 
 def test_two_at_once_have_to_cover_what_has_fired_and_keep_their_signs() -> None:
     known = {"R": 1.0, "f": 1.0, "k": 1.0}
-    good = _pair("R", "f", 0.6, -0.5, -0.2)
-    found = [good, _pair("f", "k", 0.6, 1.5, 0.1)]
-    assert pairs_that_can(found, known, _SEES, ["r1", "r2"]) == [good]
+    good = pair_of("R", "f", 0.6, -0.5, -0.2)
+    found = [good, pair_of("f", "k", 0.6, 1.5, 0.1)]
+    assert pairs_that_can(found, known, SEES, ["r1", "r2"]) == [good]
     blind = {"r1": ("R", "k"), "r2": ("k",)}
     assert pairs_that_can([good], known, blind, ["r1", "r2"]) == []
 
@@ -36,27 +23,27 @@ def test_two_at_once_have_to_cover_what_has_fired_and_keep_their_signs() -> None
 def test_two_at_once_do_not_feed_where_nothing_is_stored() -> None:
     """The machine has -change of what is nominally zero."""
     known, sees = {"leak": 0.0, "k": 1.0}, {"r1": ("leak", "k")}
-    pair, feeding = _pair("leak", "k", 0.6, -0.5, -0.2), _pair("leak", "k", 0.6, 0.5, -0.2)
+    pair, feeding = pair_of("leak", "k", 0.6, -0.5, -0.2), pair_of("leak", "k", 0.6, 0.5, -0.2)
     assert pairs_that_can([pair, feeding], known, sees, ["r1"], {"leak": 1}) == [pair]
 
 
 def test_two_at_once_are_a_thousand_times_as_rare_as_one() -> None:
-    pair, other = _pair("R", "f", 0.6, -0.5, -0.2), _pair("R", "k", 9.0, 0.1, 0.1)
+    pair, other = pair_of("R", "f", 0.6, -0.5, -0.2), pair_of("R", "k", 9.0, 0.1, 0.1)
     for evidence, left in ((pair.evidence - 6.8, []), (pair.evidence - 7.0, [pair])):
-        alone = [_explained("k", evidence)._replace(left=9.0)]
+        alone = [explained("k", evidence)._replace(left=9.0)]
         said = one_or_two(alone, [pair, other], False, lambda: _doubles((), (), ()))
         assert said == OneOrTwo(False, left)
 
 
 def test_beside_one_that_fits_are_two_that_look_like_no_single_one() -> None:
-    pair = _pair("R", "f", 0.6, -0.5, -0.2)
+    pair = pair_of("R", "f", 0.6, -0.5, -0.2)
     told, mistaken = _doubles((), (), ()), _doubles((), (), ((0, 1),))
     # as probable as one in a thousand of two makes it: beyond that it is two, and from a fiftieth
     # of all on it may be
     for more, alone, perhaps in ((7.0, False, True), (6.8, True, True), (2.9, True, False)):
-        single = [_explained("k", pair.evidence - more)]
+        single = [explained("k", pair.evidence - more)]
         said = one_or_two(single, [pair], True, lambda: told)
         assert said == OneOrTwo(alone, () if alone else [pair], perhaps)
         assert one_or_two(single, [pair], True, lambda: mistaken) == OneOrTwo()
     nothing = DoubleFaults((("R",), ("f",), ("k",)), (), "no trajectory")
-    assert one_or_two([_explained("k", 3.0)], [pair], True, lambda: nothing) == OneOrTwo()
+    assert one_or_two([explained("k", 3.0)], [pair], True, lambda: nothing) == OneOrTwo()
