@@ -248,6 +248,7 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
     lost = {left.residual: left.lost for left in found.left if left.lost}
     lines += [f"  {text}" for text in behind_gaps(lost)]
     lines += _suspected(found)
+    lines += _misread(compilation, found)
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:
             off = abs(delay.value)
@@ -333,6 +334,18 @@ def _suspected(found: Fitted) -> list[str]:
     return lines
 
 
+def _misread(compilation: Compilation, found: Fitted) -> list[str]:
+    """The inputs whose noise would look like another model, in words: they are taken as exact."""
+    if not any(left.wrong and left.follows is not None for left in found.left):
+        return []
+    inputs = [k.path for k in compilation.program.knowns if k.kind == "input"]
+    exact = [name for name in inputs if not found.noise.get(name)]
+    if not exact:
+        return []
+    each = " ".join(f"--noise {name}=DEVIATION" for name in exact[:_SUSPECTS])
+    return [f"  An input that is measured, and not exact, looks the same: say how noisy it is ({each})"]
+
+
 def _fits(left: Left, offset: bool) -> list[str]:
     """What is left of one residual, in words; an `offset` may be what is wrong."""
     if not left.after and not left.before:
@@ -340,7 +353,9 @@ def _fits(left: Left, offset: bool) -> list[str]:
     if left.nothing:
         share = f"{100 * left.after / left.term:.1g} % of its largest term"
         return [f"{left.residual}: what is left is {share}, as of samples without noise"]
-    if left.explained < 0.0:  # other residuals tell its parameters better, and move them
+    if f"{left.explained:.3f}" in ("0.000", "-0.000"):
+        text = "as large as at the nominal values"
+    elif left.explained < 0.0:  # other residuals tell its parameters better, and move them
         text = f"{left.after / left.before:.3g} times what it is at the nominal values"
     else:
         text = f"{100 * left.explained:.1f} % of it at the nominal values is explained"

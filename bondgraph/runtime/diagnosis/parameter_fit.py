@@ -61,7 +61,7 @@ def fit(
         progress((k + 1) / (_ROUNDS + 1))
     names = problem.names
     count = len(names)
-    at, whole, null = _declared(problem, at)
+    at, whole, null, asked = _declared(problem, at)
     covariance = whole[:count, :count]
     bound = problem.bound(at)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
@@ -87,7 +87,7 @@ def fit(
     zeros = np.where(problem.zeros, problem.scale, 0.0)
     found = combinations(
         called, values, problem.scale, zeros, null, partial(problem.cost, late),
-        partial(_more, covariance),
+        partial(_more, asked[:count, :count]),
     )  # fmt: skip
     suspects = problem.suspects(at, units)
     progress(1.0)
@@ -114,16 +114,19 @@ def fit(
     )  # fmt: skip
 
 
-def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Array]:
-    """Where what nothing tells stays as it is declared, the covariance there, and what that is.
+def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Array, Array]:
+    """Where what nothing tells stays as it is declared, the covariance there, what that is, and the
+    covariance by which nothing tells it.
 
     A fit goes anywhere along what nothing tells: there a valve may be open all the time, and one
     that the logs do tell of seems not to be told. So it is asked again where that is as declared.
+    One that is told there, and only there, stays as declared: the logs tell that it is elsewhere,
+    and there they do not tell where.
     """
     count = len(problem.names)
     null = np.zeros((0, count))
     for _ in range(_ASKED):
-        whole = problem.covariance(at)
+        whole = asked = problem.covariance(at)
         own = untold(whole[:count, :count], _TOLD**2)
         if own.shape == null.shape and ((own != 0) == (null != 0)).all():
             break
@@ -134,7 +137,7 @@ def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Arra
         at = problem.solve(at)
     else:
         whole = problem.covariance(at)
-    return at, whole, null
+    return at, whole, null, asked
 
 
 def _more(covariance: Array, own: Sequence[int]) -> float | None:

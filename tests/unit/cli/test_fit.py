@@ -76,6 +76,27 @@ def test_a_log_without_noise_fits_unless_the_law_is_another(
     assert ("the model" in done.out) == bool(squared)
 
 
+def test_an_input_that_is_misread_looks_like_another_model(bondgraph: Command, folder: Path) -> None:
+    """A wind of 8 +- 1 m/s that is read with 0.5 m/s of noise drives a law of its cube."""
+    (folder / "w.bg").write_text("""bg 1
+model W { input v : m/s; param k = 2; param R = 3 N.m.s/rad +- 5%
+  Se:wind = k*v^3; wind -> 1:s; s -> R:R; s -> Df:speed }""")
+    draw = np.random.default_rng(5)
+    t = np.arange(6000) / 20.0
+    v = 8.0 + np.sin(0.5 * t) + 0.5 * np.sin(1.3 * t)
+    speed = 2.0 * v**3 / 3.0 + 0.5 * draw.standard_normal(len(t))
+    write_log(Log(t, {"v": v + 0.5 * draw.standard_normal(len(t)), "speed": speed}, {}, {}), "w.csv")
+    done = bondgraph("fit", "w.bg", "w.csv", "-o", "p.toml")
+    assert done.status == 0, done.err
+    assert "follows the inputs" in done.out
+    assert "say how noisy it is (--noise v=DEVIATION)" in done.out
+    done = bondgraph("fit", "w.bg", "w.csv", "-o", "p.toml", "--noise", "v=0.5")
+    assert done.status == 0, done.err
+    assert "DEVIATION" not in done.out
+    assert "1 of 1 parameter told" in done.out
+    assert abs(tomllib.loads((folder / "p.toml").read_text())["parameters"]["R"] - 3.0) < 0.1
+
+
 def test_what_a_wrong_law_tells_has_no_interval_either(bondgraph: Command, folder: Path) -> None:
     """R of 3 Ohm and 1.2 V beside it, that turns with the current: the law has no such term."""
     t = np.arange(6000) / 1000.0
@@ -508,3 +529,5 @@ def test_a_residual_that_the_fit_makes_larger_has_no_negative_share_explained() 
     """1.5 times as large: the share 1 - 1.5^2 of its mean square is below zero."""
     (said,) = _fits(Left("r1", 40, 2.0, 3.0, 1.0, 0.0, None, (), 10.0), offset=False)
     assert said.startswith("r1: 1.5 times what it is at the nominal values; what is left is 3 ")
+    (said,) = _fits(Left("r1", 40, 2.0, 2.0002, 1.0, 0.0, None, (), 10.0), offset=False)
+    assert said.startswith("r1: as large as at the nominal values; what is left is 2 ")

@@ -12,6 +12,7 @@ from scipy.stats import t
 import bondgraph
 from bondgraph import Course, Log, Scenario
 from bondgraph.runtime.diagnosis.fitted import Fitted, Fitting
+from bondgraph.runtime.diagnosis.parameter_fit import _declared, _more
 from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.diagnosis.whitening import newey_west, whitening
 
@@ -570,6 +571,36 @@ def test_what_nothing_tells_is_asked_for_where_it_is_as_declared() -> None:
     assert abs(found.values["set"] - 9.8) < 0.08
     assert abs(found.values["kr"] - 2.2) < 0.3
     assert not any(c.parameters == ("set",) for c in found.combinations)
+
+
+class _Fickle:
+    """A problem of two parameters; the logs tell the second one where it is as declared only."""
+
+    names = ("a", "b")
+
+    def __init__(self) -> None:
+        self.pins = np.zeros((0, 2))
+
+    def covariance(self, at: np.ndarray) -> np.ndarray:
+        declared = bool((self.pins[:, 1] != 0).any()) if len(self.pins) else False
+        return np.diag([25.0, 0.01 if declared else 0.36])
+
+    def pin(self, null: np.ndarray) -> None:
+        self.pins = null
+
+    def solve(self, at: np.ndarray) -> np.ndarray:
+        return at
+
+    def weigh(self, at: np.ndarray) -> None:
+        pass
+
+
+def test_what_is_told_only_where_it_is_as_declared_is_said_to_need_more_motion() -> None:
+    """It was said that 0.33 times the motion of a log that does not tell would tell."""
+    _, whole, null, asked = _declared(_Fickle(), np.zeros(2))  # type: ignore[arg-type]
+    assert sorted(null.tolist()) == [[0.0, 1.0], [1.0, 0.0]]
+    assert whole[1, 1] == 0.01
+    assert _more(asked, [1]) == pytest.approx(0.6 / 0.3)
 
 
 @pytest.mark.parametrize("opens", (0.3, 2.5, 3.5))
