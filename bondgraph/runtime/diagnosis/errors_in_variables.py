@@ -147,6 +147,7 @@ class ErrorsInVariables:
         # a delay acts by its slope: a longer one would add a derivative, and its noise, at will
         self._low[len(self.names) :], self._high[len(self.names) :] = -LATEST, LATEST
         self._pins = np.zeros((0, self.size))
+        self._bent: Array | float = 0.0
         self._filters = np.zeros((LAGS + 1, len(runs.engine.residuals)))
         self._extra = np.zeros(len(runs.engine.residuals))
         self._weight = np.ones(len(runs.engine.residuals))
@@ -217,7 +218,8 @@ class ErrorsInVariables:
         offsets = np.array([self._offsets(p) for p in points])
         if more is not None:
             offsets += more
-        return self._runs.rows([self._numbers(p) for p in points], delays, offsets)
+        clean, added = self._runs.rows([self._numbers(p) for p in points], delays, offsets)
+        return clean - self._bent, added
 
     def _white(
         self, points: Sequence[Array], more: Array | None = None
@@ -297,8 +299,11 @@ class ErrorsInVariables:
         What is left beyond the noise of the sensors is the model's error, which no parameter
         changes; where that would make zeros of all parameters, it is a weight alone. It is there
         from the `first` point on: a parameter that divides what is noisy would else be made
-        nothing of, so that noise drowns what the model is off by.
+        nothing of, so that noise drowns what the model is off by. What noise moves residuals by to
+        one side is taken off as it is here.
         """
+        late = at[len(self.names) :]
+        self._bent = self._runs.bent(self._numbers(at), late, self._offsets(at))
         if not first:
             clean, added = self._rows([at])
             self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)

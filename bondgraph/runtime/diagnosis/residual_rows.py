@@ -1,7 +1,8 @@
 """The filtered residuals of logs, at rows some way apart, for any parameters of a machine.
 
 Beside them is what the noise of the sensors adds to them: the program runs over a log, and over
-the same log with as much noise once more.
+the same log with as much noise once more. What the same noise adds with either sign is no noise: a
+law that bends makes it, as of a square of a speed the square of its noise.
 """
 
 from __future__ import annotations
@@ -84,6 +85,7 @@ class ResidualRows:
         ]  # fmt: skip
         draw = np.random.default_rng(1)
         self._shaken = [self._shake(p, noise, draw) for p in self.pieces]
+        self._mirrored = [2.0 * p - q for p, q in zip(self.pieces, self._shaken, strict=True)]
 
     def _shake(self, samples: Array, noise: Sequence[float], draw: np.random.Generator) -> Array:
         """The samples with noise once more; that of encoders in whole counts."""
@@ -144,6 +146,26 @@ class ResidualRows:
         units of these, of which logs are cleared. NaN where a residual is not valid, and in one row
         behind every log.
         """
+        return self._added(parameters, delays, offsets, self._shaken)
+
+    def bent(self, parameters: Mapping[str, float], delays: Array, offsets: Array) -> Array:
+        """What noise moves residuals by to one side, as laws bend, (rows, residuals); 0 if unknown.
+
+        The mean of what noise of either sign adds. In the residuals there is as much of it as the
+        samples have noise once: as in SIMEX (Cook and Stefanski 1994), to first order in their
+        variance.
+        """
+        up, down = (self._added([parameters], delays[None], offsets[None], noisy)[1][0]
+                    for noisy in (self._shaken, self._mirrored))  # fmt: skip
+        return np.nan_to_num((up + down) / 2.0)
+
+    def _added(
+        self,
+        parameters: Sequence[Mapping[str, float]],
+        delays: Array,
+        offsets: Array,
+        noisy: Sequence[Array],
+    ) -> tuple[Array, Array]:
         moved = np.hstack([delays, offsets])
         found: list[tuple[Array, Array]] = [(np.empty(0), np.empty(0))] * len(parameters)
         for group in {tuple(row): None for row in moved.tolist()}:
@@ -151,7 +173,7 @@ class ResidualRows:
             own = [parameters[k] for k in members]
             late = dict(zip(self.late, group, strict=False))
             off = dict(zip(self.biased, group[len(self.late) :], strict=True))
-            both = zip(*self._together(own, late, off), strict=True)
+            both = zip(*self._together(own, late, off, noisy), strict=True)
             for k, one in zip(members, both, strict=True):
                 found[k] = one
         return np.stack([f[0] for f in found]), np.stack([f[1] for f in found])
@@ -161,9 +183,10 @@ class ResidualRows:
         parameters: Sequence[Mapping[str, float]],
         late: Mapping[int, float],
         off: Mapping[int, float],
+        noisy: Sequence[Array],
     ) -> tuple[Array, Array]:
         clean, added = [], []
-        every = enumerate(zip(self.pieces, self._shaken, self._lasts, strict=True))
+        every = enumerate(zip(self.pieces, noisy, self._lasts, strict=True))
         for number, (samples, shaken, lasts) in every:
             own = [self._of(number, numbers) for numbers in parameters]
             each = {tuple(numbers.items()): None for numbers in own}  # what others begin with
