@@ -343,7 +343,7 @@ def _misread(compilation: Compilation, found: Fitted) -> list[str]:
     if not exact:
         return []
     each = " ".join(f"--noise {name}=DEVIATION" for name in exact[:_SUSPECTS])
-    return [f"  An input that is measured, and not exact, looks the same: say how noisy it is ({each})"]
+    return [f"  An input that is read with noise looks the same: say with how much ({each})"]
 
 
 def _fits(left: Left, offset: bool) -> list[str]:

@@ -157,7 +157,7 @@ class ResidualRows:
         """
         up, down = (self._added([parameters], delays[None], offsets[None], noisy)[1][0]
                     for noisy in (self._shaken, self._mirrored))  # fmt: skip
-        return np.nan_to_num((up + down) / 2.0)
+        return np.asarray(np.nan_to_num((up + down) / 2.0))
 
     def _added(
         self,

@@ -76,7 +76,9 @@ def test_a_log_without_noise_fits_unless_the_law_is_another(
     assert ("the model" in done.out) == bool(squared)
 
 
-def test_an_input_that_is_misread_looks_like_another_model(bondgraph: Command, folder: Path) -> None:
+def test_an_input_with_noise_looks_like_another_model(
+    bondgraph: Command, folder: Path
+) -> None:
     """A wind of 8 +- 1 m/s that is read with 0.5 m/s of noise drives a law of its cube."""
     (folder / "w.bg").write_text("""bg 1
 model W { input v : m/s; param k = 2; param R = 3 N.m.s/rad +- 5%
@@ -85,11 +87,12 @@ model W { input v : m/s; param k = 2; param R = 3 N.m.s/rad +- 5%
     t = np.arange(6000) / 20.0
     v = 8.0 + np.sin(0.5 * t) + 0.5 * np.sin(1.3 * t)
     speed = 2.0 * v**3 / 3.0 + 0.5 * draw.standard_normal(len(t))
-    write_log(Log(t, {"v": v + 0.5 * draw.standard_normal(len(t)), "speed": speed}, {}, {}), "w.csv")
+    read = v + 0.5 * draw.standard_normal(len(t))
+    write_log(Log(t, {"v": read, "speed": speed}, {}, {}), "w.csv")
     done = bondgraph("fit", "w.bg", "w.csv", "-o", "p.toml")
     assert done.status == 0, done.err
     assert "follows the inputs" in done.out
-    assert "say how noisy it is (--noise v=DEVIATION)" in done.out
+    assert "say with how much (--noise v=DEVIATION)" in done.out
     done = bondgraph("fit", "w.bg", "w.csv", "-o", "p.toml", "--noise", "v=0.5")
     assert done.status == 0, done.err
     assert "DEVIATION" not in done.out

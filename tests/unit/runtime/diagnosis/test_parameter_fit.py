@@ -573,6 +573,36 @@ def test_what_nothing_tells_is_asked_for_where_it_is_as_declared() -> None:
     assert not any(c.parameters == ("set",) for c in found.combinations)
 
 
+CUBE = """bg 1
+model W { input v : m/s; param k = 2; param R = 3 N.m.s/rad +- 5%
+  Se:wind = k*v^3; wind -> 1:s; s -> R:R; s -> Df:speed }"""
+SQUARE = """bg 1
+model P { input w : rad/s; param a = 1e3; param R = 3 +- 20%
+  Se:pump = a*w; pump -> 1:s; s -> R:pipe { e = R*ssq(f) }; s -> Df:q }"""
+
+
+@pytest.mark.parametrize(("text", "signal"), ((CUBE, "v"), (SQUARE, "q")))
+def test_noise_in_a_law_that_bends_moves_no_parameter(text: str, signal: str) -> None:
+    """The mean of (v + e)^3 is v^3 + 3 v s^2, and of (q + e)^2 it is q^2 + s^2: at 8 +- 1 that
+    moves R by 4 and 2 % with s = 1, and standard errors are 1 and 0.5 %."""
+    c = bondgraph.compile(text=text, rate=20.0)
+    time = np.arange(6000) / 20.0
+    moving = 8.0 + np.sin(0.5 * time) + 0.5 * np.sin(1.3 * time)
+    off = []
+    for seed in range(6):
+        draw = np.random.default_rng(seed)
+        read = moving + draw.standard_normal(len(time))
+        if signal == "v":
+            columns = {"v": read, "speed": 2.0 * moving**3 / 3.0}
+            columns["speed"] = columns["speed"] + 0.5 * draw.standard_normal(len(time))
+        else:
+            columns = {"w": 3.0 * moving**2 / 1e3, "q": read}
+        one = only(c.fit({"run": Log(time, columns, {}, {})}, ["R"], {signal: 1.0}))
+        assert one.error is not None and one.error < 0.05
+        off.append((one.value - 3.0) / one.error)
+    assert abs(np.mean(off)) < 3.0 / math.sqrt(len(off))  # of the mean of as many
+
+
 class _Fickle:
     """A problem of two parameters; the logs tell the second one where it is as declared only."""
 
