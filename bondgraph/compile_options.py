@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from bondgraph.ir.residuals import Form
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.limits import RATE
 from bondgraph.text.tuples import NamedTuple
@@ -13,9 +14,6 @@ if TYPE_CHECKING:
     from typing import TypedDict
 
     from bondgraph.runtime.diagnosis.tuning import Tuning
-
-#: What a step may be made of, see `Options`: in one form, or observers where they are named.
-Form = Literal["derivative", "observer"] | tuple[str, ...]
 
 #: The least and the largest value of a signal, in its unit.
 Range = tuple[float, float]

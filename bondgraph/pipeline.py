@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bondgraph.backends.decision import Tuned
     from bondgraph.backends.drawing.scene import Look
     from bondgraph.backends.write import Change
-    from bondgraph.compile_options import Form, OptionValues
+    from bondgraph.compile_options import OptionValues
     from bondgraph.derivations import Derivations
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.fixed_program import FixedProgram
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
-    from bondgraph.ir.residuals import Observer, ReducedSystem, ResidualSet
+    from bondgraph.ir.residuals import Form, Observer, ReducedSystem, ResidualSet
     from bondgraph.ir.runnable_code import Runnable
     from bondgraph.ir.signature_matrix import (
         Detectability,
@@ -805,8 +805,7 @@ class Compilation:
                     f"it is for {tuning.rate:.9g} samples a second, and these come at {rate:.9g}"
                     f" (`--rate {tuning.rate:.9g}` takes them at that)"
                 )
-            if tuning.model != self.program.digest:
-                raise ValueError("it is of another model, or of other options or parameters")
+            self._check_model(tuning)
             if abs(tuning.bandwidth / engine.bandwidth - 1) > 1e-9:
                 raise ValueError(f"it is for a filter of {tuning.bandwidth:g} rad/s")
         return Diagnosis(engine, self.diagnosis_model, tuning)
@@ -917,13 +916,27 @@ class Compilation:
         return Tuned(limits, words, own.shows, own.window)
 
     def tuned(self, tuning: Tuning) -> Compilation:
-        """The same for the filter of a tuning, with its limits in the code.
+        """The same with the residuals and the filter of a tuning, and its limits in the code.
 
         Raises ValueError for a tuning of another model, of other options, parameters or rate.
         """
+        own = self
         if tuning.model != self.program.digest:
-            raise ValueError("it is of another model, or of other options or parameters")
-        return self.with_options(bandwidth=tuning.bandwidth, tuning=tuning)
+            form = tuning.form if self.options.form == "derivative" else self.options.form
+            own = self.with_options(isolate=self.options.isolate or tuning.isolate, form=form)
+        own._check_model(tuning)
+        return own.with_options(bandwidth=tuning.bandwidth, tuning=tuning)
+
+    def _check_model(self, tuning: Tuning) -> None:
+        """Raises ValueError for a tuning of other residuals."""
+        if tuning.model == self.program.digest:
+            return
+        residuals = "isolate", "form"
+        if any(getattr(tuning, name) != getattr(self.options, name) for name in residuals):
+            raise ValueError(
+                f"it is of the residuals with isolate={tuning.isolate}, form={tuning.form!r}"
+            )
+        raise ValueError("it is of another model, or of other options or parameters")
 
     @cached_property
     def _fmus(self) -> tuple[BinaryArtifact, ...]:

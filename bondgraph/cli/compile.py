@@ -15,9 +15,9 @@ from bondgraph.cli.options import (
     bits,
     further,
     opened,
-    read_tuning,
     realised,
     sample_rate,
+    tuning_of,
 )
 from bondgraph.cli.signal_ranges import ranging, with_ranges
 from bondgraph.text.diagnostic import Trouble
@@ -175,7 +175,7 @@ def _currency(folder: str, old: tuple[str, ...]) -> str:
 
 def _opened(args: Namespace) -> Compilation:
     """The model with all options; a tuning says how it is sampled and filtered."""
-    tuning = read_tuning(args.tuning) if args.tuning else None
+    tuning = tuning_of(args)
     if tuning is not None:
         for option, own, known in (
             ("--rate", args.rate, tuning.rate),

@@ -13,10 +13,10 @@ from bondgraph.cli.options import (
     announced,
     isolating,
     positive,
-    read_tuning,
     realised,
     realising,
     serving,
+    tuning_of,
 )
 from bondgraph.ir.expr import symbols
 from bondgraph.text.diagnostic import Trouble
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from bondgraph.ir.graph import BondGraph
     from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.live.session import Session
     from bondgraph.runtime.live.setup import Machine, Setup
     from bondgraph.runtime.simulation.scenario import Scenario
@@ -98,7 +99,7 @@ def _serve(args: Namespace, made: Any) -> int:
     from bondgraph.runtime.live.session import Session
     from bondgraph.runtime.simulation.scenario import Scenario
 
-    rate = args.rate
+    rate, tuning = args.rate, tuning_of(args)
     compilation = realising(args)
     scenario = compilation.scenario(args.scenario) if args.scenario else Scenario("live")
     if rate is None:
@@ -107,7 +108,7 @@ def _serve(args: Namespace, made: Any) -> int:
     if args.scenario:  # read for this one: its expressions belong to the graph of the model
         scenario = compilation.scenario(args.scenario)
     try:
-        setup = setup_of(args, compilation, scenario)
+        setup = setup_of(args, compilation, scenario, tuning)
     except ValueError as error:
         raise Trouble(str(error)) from error
     machine = _machine(args, compilation)
@@ -140,7 +141,9 @@ def _serve(args: Namespace, made: Any) -> int:
 # --------------------------------------------------------------------------- what it is made of
 
 
-def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> Setup:
+def setup_of(
+    args: Namespace, compilation: Compilation, scenario: Scenario, tuning: Tuning | None = None
+) -> Setup:
     """What a session of these arguments is made of."""
     from bondgraph.runtime.live.setup import Setup, Wide, further
     from bondgraph.runtime.monitoring.clock import clock_of
@@ -150,7 +153,6 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
     from bondgraph.runtime.simulation.parameters import Values
 
     graph = compilation.graph
-    tuning = read_tuning(args.tuning) if args.tuning else None
     engine, decided = watching(compilation, tuning, note)
     values = Values(graph, scenario.parameters)
     turns = {s.name: values.number(s.counts) for s in graph.sensors if s.counts is not None}

@@ -14,11 +14,11 @@ from bondgraph.cli.options import (
     bandwidth,
     count,
     isolating,
-    read_tuning,
     realised,
     realising,
     sample_rate,
     seconds,
+    tuning_of,
 )
 from bondgraph.text.numerals import plural
 
@@ -114,7 +114,7 @@ def run(args: Namespace) -> int:
         print(f"error: {wrong}", file=sys.stderr)
         return 2
     if several:
-        return fleet.run(args, read_tuning(args.tuning) if args.tuning else None, FAULT)
+        return fleet.run(args, tuning_of(args), FAULT)
     try:
         samples = address(args.mqtt) if args.mqtt else None
         verdicts = _publish_to(args.publish, samples)
@@ -167,7 +167,7 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     )
 
     known = known_rate(args.journal) if args.journal else None
-    tuning = read_tuning(args.tuning) if args.tuning else None
+    tuning = tuning_of(args)
     rate = sample_rate(args.rate or known, source, tuning, Options().rate)
     compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
     signals = setting(*compilation.runnable_programs).signals if args.map else ()

@@ -18,8 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import Unpack
 
-    from bondgraph.compile_options import Form, OptionValues
+    from bondgraph.compile_options import OptionValues
     from bondgraph.ir.graph import BondGraph
+    from bondgraph.ir.residuals import Form
     from bondgraph.ir.unit import Unit
     from bondgraph.runtime.diagnosis.tuning import Tuning
 
@@ -337,16 +338,25 @@ def opened(args: Namespace, targets: tuple[str, ...] = Options().targets) -> Com
     return compilation
 
 
-def read_tuning(path: str) -> Tuning:
-    """The limits that `bondgraph tune` wrote."""
+def tuning_of(args: Namespace) -> Tuning | None:
+    """The limits of `--tuning`, if it is given: for the residuals that they are of, from now on.
+
+    Nobody has to say again with what `--isolate` and `--form` they were made.
+    """
     from bondgraph.runtime.diagnosis.tuning import Tuning
 
+    path = args.tuning
+    if not path:
+        return None
     try:
         check_regular(path, TUNING_BYTES)
         with open(path, encoding="utf-8") as file:
-            return Tuning.from_json(file.read())
+            tuning = Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:
         raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
+    args.isolate = args.isolate or tuning.isolate
+    args.form = tuning.form if args.form == "derivative" else args.form
+    return tuning
 
 
 def announced(said: str, address: str, no_browser: bool) -> None:

@@ -34,7 +34,8 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
             lines += [f"  {name}", *prose(why, columns, "    ")]
     if matrix.faults and matrix.residuals:
         lines += ["", "Fault signatures", *signature_table(matrix, columns)]
-        more = told_apart_at_best(compilation, "compile --isolate adds residuals for them")
+        verb = "tune" if compilation.options.tuning else "compile"  # a tuning is of its residuals
+        more = told_apart_at_best(compilation, f"{verb} --isolate adds residuals for them")
         lines += ["", more] if more else []
     lines += _elsewhere(matrix, columns)
     lines += [f"  {r}  is not confirmed: {why}" for r, why in matrix.unconfirmed.items()]

@@ -109,7 +109,9 @@ def run(args: Namespace) -> int:
         raise Trouble(str(error)) from error
     alone = bool(args.logs) and len({name for name, _ in pieces}) == 1
     best = _best(found, usual)
-    write_whole(args.output, best.tuning.to_json())
+    form = compilation.options.form
+    tuning = best.tuning._replace(isolate=args.isolate, form=form)
+    write_whole(args.output, tuning.to_json())
     return console.told(
         args.json,
         compilation.report.diagnostics,
@@ -321,7 +323,7 @@ def _lines(
     at_times = [f"{_name(s)} ({100 * s.share:.2g} % of them)" for s in hidden if s.share]
     if at_times:
         lines += ["", f"Shows in fewer windows, with some motion only: {', '.join(at_times)}"]
-    more = told_apart_at_best(compilation, "tune and monitor --isolate add residuals for them")
+    more = told_apart_at_best(compilation, "tune --isolate adds residuals for them")
     if more:
         own = plural(len(compilation.signatures.groups), "group")
         lines += ["", f"These residuals tell faults apart in {own}; {more}"]

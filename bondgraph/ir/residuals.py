@@ -9,6 +9,9 @@ from bondgraph.ir.expr import Expr
 from bondgraph.text.diagnostic import Diagnostic
 from bondgraph.text.tuples import NamedTuple
 
+#: What residuals are made of, see `Options`: in one form, or observers where they are named.
+Form = Literal["derivative", "observer"] | tuple[str, ...]
+
 How = Literal["solved", "inverted", "differentiated", "integrated", "loop", "known"]
 
 

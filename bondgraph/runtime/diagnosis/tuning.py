@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from bondgraph.ir.residual_limit import ShownSize
+from bondgraph.ir.residuals import Form
 from bondgraph.text.foreign_data import WrongData, json_data
 from bondgraph.text.limits import RATE
 from bondgraph.text.tuples import NamedTuple
@@ -73,7 +74,8 @@ class Tuning(NamedTuple):
     `false_alarms` are those wanted per hour, of all residuals and tests together; `model` is
     the digest of the residuals that it belongs to, `seconds` how much healthy data it is from.
     `bounds` are the largest adaptive thresholds a in that data, by residual. `shows` says by
-    residual and fault from which size on it shows within a `window` of seconds.
+    residual and fault from which size on it shows within a `window` of seconds. The residuals are
+    those of the options `isolate` and `form`: who uses the tuning compiles the model with these.
 
     >>> limits = {"r1": Limit(sigma=0.2, crossings=10.0, kappa=4.7, height=9.3)}
     >>> tuning = Tuning("7888fd5a1d32470a", 1000.0, 20.0, 1.0, 60.0, limits)
@@ -90,6 +92,8 @@ class Tuning(NamedTuple):
     bounds: Mapping[str, float] = MappingProxyType({})
     shows: Mapping[str, Mapping[str, ShownSize]] = MappingProxyType({})
     window: float = 0.0
+    isolate: bool = False
+    form: Form = "derivative"
 
     def to_json(self) -> str:
         """A text for people and programs, as `bondgraph tune` writes it."""
@@ -132,12 +136,23 @@ class Tuning(NamedTuple):
                     for name, faults in record.get("shows", {}).items()
                 },
                 _number({"window": 0.0} | record, "window", 0.0),
+                record.get("isolate", False) is True,
+                _form(record.get("form", "derivative")),
             )
         except (KeyError, TypeError, AttributeError, OverflowError) as error:
             raise ValueError(f"this is no tuning: {error}") from error
         except WrongData as error:
             where = f" in line {error.line}" if error.line else ""
             raise ValueError(f"this is no tuning: {error}{where}") from error
+
+
+def _form(value: object) -> Form:
+    """The form of the residuals in a tuning; raises ValueError for what is none."""
+    if value == "derivative" or value == "observer":
+        return value
+    if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
+        raise ValueError("`form` of a tuning is derivative, observer, or names of residuals")
+    return tuple(value)
 
 
 def _number(record: Mapping[str, Any], key: str, least: float, most: float = _MOST) -> float:

@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 import sympy
 
+import bondgraph as package
+from bondgraph.runtime.diagnosis.tuning import Tuning
 from tests.unit.cli.conftest import MODELS, Command
 
 MOTOR = MODELS / "dc_motor.bg"
@@ -269,6 +271,33 @@ def test_draw_writes_a_figure(bondgraph: Command, tmp_path: Path) -> None:
     assert derivative.out.startswith("<svg") and derivative.out != path.read_text()
 
 
+@pytest.mark.parametrize("how", (("--isolate",), ("--form", "observer:r1")))
+def test_a_tuning_says_which_residuals_it_is_for(
+    bondgraph: Command, tmp_path: Path, how: tuple[str, ...]
+) -> None:
+    """Who tuned with `--isolate` or `--form` need not say so again wherever the tuning is used."""
+    found, log, out = tmp_path / "tuning.json", tmp_path / "log.csv", tmp_path / "out"
+    (tmp_path / "run.toml").write_text('duration = "8 s"\n'
+                                       '[inputs]\nU = "6*(1 + 0.3*sin(t))"\nload = 0\n'
+                                       "[sensors.current]\nnoise = 0.001\n"
+                                       "[sensors.speed]\nnoise = 0.5\n")  # fmt: skip
+    assert bondgraph("simulate", MOTOR, tmp_path / "run.toml", "-o", log).status == 0
+    assert bondgraph("tune", MOTOR, log, *how, "-o", found).status == 0
+    plain, same = package.compile(MOTOR), package.compile(MOTOR, **(
+        {"isolate": True} if how[0] == "--isolate" else {"form": ("r1",)}
+    ))  # fmt: skip
+    tuning = Tuning.from_json(found.read_text())
+    assert plain.tuned(tuning).program.digest == same.tuned(tuning).program.digest
+    with pytest.raises(ValueError, match="the residuals with isolate="):
+        plain.diagnosis(plain.engine(native=False).configured(bandwidth=tuning.bandwidth), tuning)
+    done = bondgraph("compile", MOTOR, "--tuning", found, "-o", out, "--json")
+    assert done.status == 0
+    assert len(json.loads(done.out)["arrs"]) == len(same.residuals)
+    for words in (("monitor", MOTOR, log), ("monitor", MOTOR, log, "--jobs", "1")):
+        done = bondgraph(*words, "--tuning", found)
+        assert done.status == 0 and "fault" not in done.out
+
+
 def test_code_takes_limits_of_its_own_tuning_only(bondgraph: Command, tmp_path: Path) -> None:
     found, out = tmp_path / "tuning.json", tmp_path / "out"
     learned = ("tune", MOTOR, "--simulate", tmp_path / "run.toml", "--runs", "1", "-o", found)
@@ -279,7 +308,8 @@ def test_code_takes_limits_of_its_own_tuning_only(bondgraph: Command, tmp_path: 
     assert bondgraph(*learned).status == 0
     for wrong, why in (
         (("compile", MODELS / "quarter_car.bg", "--tuning", found), "of another model"),
-        (("compile", MOTOR, "--isolate", "--decouple", "R", "--tuning", found), "other options"),
+        (("compile", MOTOR, "--isolate", "--tuning", found), "the residuals with isolate=False"),
+        (("compile", MOTOR, "--form", "observer", "--tuning", found), "form='derivative'"),
         (("compile", MOTOR, "--rate", "500", "--tuning", found), "--rate 1000, not for 500"),
         (("compile", MOTOR, "--tuning", tmp_path / "run.toml"), "this is no tuning"),
         (("compile", MOTOR, "--tuning", tmp_path / "none.json"), "none.json"),
