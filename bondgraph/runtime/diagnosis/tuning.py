@@ -136,8 +136,7 @@ class Tuning(NamedTuple):
                     for name, faults in record.get("shows", {}).items()
                 },
                 _number({"window": 0.0} | record, "window", 0.0),
-                record.get("isolate", False) is True,
-                _form(record.get("form", "derivative")),
+                *_residuals(record.get("isolate", False), record.get("form", "derivative")),
             )
         except (KeyError, TypeError, AttributeError, OverflowError) as error:
             raise ValueError(f"this is no tuning: {error}") from error
@@ -146,13 +145,15 @@ class Tuning(NamedTuple):
             raise ValueError(f"this is no tuning: {error}{where}") from error
 
 
-def _form(value: object) -> Form:
-    """The form of the residuals in a tuning; raises ValueError for what is none."""
-    if value == "derivative" or value == "observer":
-        return value
-    if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
+def _residuals(isolate: object, form: object) -> tuple[bool, Form]:
+    """The residuals that a tuning is for; raises ValueError for what no tuning has."""
+    if not isinstance(isolate, bool):
+        raise ValueError("`isolate` of a tuning is true or false")
+    if form == "derivative" or form == "observer":
+        return isolate, form
+    if not isinstance(form, list) or not all(isinstance(name, str) for name in form):
         raise ValueError("`form` of a tuning is derivative, observer, or names of residuals")
-    return tuple(value)
+    return isolate, tuple(form)
 
 
 def _number(record: Mapping[str, Any], key: str, least: float, most: float = _MOST) -> float:

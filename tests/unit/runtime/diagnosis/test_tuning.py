@@ -46,7 +46,18 @@ def test_a_tuning_is_read_back_and_other_texts_are_not() -> None:
     sizes = {"r1": {"R": ShownSize(0.5, math.inf), "L": ShownSize(1.0, 3.0)}}
     more = tuning._replace(bounds={"r1": 0.2}, shows=sizes, window=2.0)
     assert Tuning.from_json(more.to_json()) == more
+    for form in ("derivative", "observer", ("r1", "r3")):
+        own = tuning._replace(isolate=True, form=form)  # type: ignore[arg-type]
+        assert Tuning.from_json(own.to_json()) == own
+    older = re.sub(r',\s+"isolate": false,\s+"form": "derivative"', "", tuning.to_json())
+    assert "isolate" not in older and Tuning.from_json(older) == tuning
     text = re.sub(r"\s+", " ", more.to_json())
+    for wrong in ('"isolate": 1', '"isolate": "true"', '"form": null', '"form": [1]', '"form": ""'):
+        key = wrong.split(":")[0]
+        broken = re.sub(rf'{key}: (false|"derivative")', wrong, text)
+        assert broken != text
+        with pytest.raises(ValueError, match=f"`{key[1:-1]}` of a tuning is"):
+            Tuning.from_json(broken)
     for wrong in ("[ -1, null ]", "[ [1], null ]", '"r1"', "[ 0.5 ]", "[ 1, 2, 3 ]", "3", "null"):
         assert text.count("[ 0.5, null ]") == 1
         with pytest.raises(ValueError, match="tuning"):
