@@ -15,7 +15,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from bondgraph.runtime.diagnosis.remembered import Memory, from_the_start, unknown_starts
 from bondgraph.runtime.diagnosis.whitening import LAGS
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.moment import moment
@@ -61,6 +61,11 @@ class ResidualRows:
         self._lasts = [
             from_the_start(engine, memories, piece.samples, bool(piece.anew)) for _, piece in enough
         ]
+        of_first = {r for m in memories if not m.integral for r in m.residuals}
+        fitted = [{r for m in memories if unknown_starts([m], k) for r in m.residuals}
+                  for k in self.later]  # fmt: skip
+        self._keep = np.array([r in of_first for r in engine.residuals])
+        self._stand = [np.array([r in of_first - own for r in engine.residuals]) for own in fitted]
         self.lost = time * np.sum(
             [len(p) - own for p, own in zip(self.pieces, self._lasts, strict=True)], axis=0
         )
@@ -194,6 +199,8 @@ class ResidualRows:
             few = [dict(numbers) for numbers in each]
             one = self._through(few, _moved(samples, late, off), samples, lasts)
             more = self._through(few, _moved(shaken, late, off), samples, lasts) - one
+            _level(more, self._keep)
+            _level(one, self._stand[number])
             clean.append(one[which])
             added.append(more[which])
         return np.concatenate(clean, axis=1), np.concatenate(added, axis=1)
@@ -234,6 +241,12 @@ class ResidualRows:
         for k, until in enumerate((lasts // self.every).tolist()):
             found[:, until:, k] = np.nan
         return found
+
+
+def _level(rows: Array, residuals: Mask) -> None:
+    """Take the mean over the rows off some residuals of (sets, rows, residuals)."""
+    if residuals.any():
+        rows[:, :, residuals] -= np.nanmean(rows[:, :, residuals], axis=1, keepdims=True)
 
 
 def _jumps(values: Array, read: bool = False) -> bool:
