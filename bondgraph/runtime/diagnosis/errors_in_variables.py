@@ -292,9 +292,15 @@ class ErrorsInVariables:
         return np.asarray((np.nansum(value**2, axis=(1, 2)) + (known**2).sum(axis=1)) / 2.0)
 
     def pin(self, directions: Array) -> None:
-        """Keep to the nominal values along directions (n, p) of the parameters."""
+        """Keep to the nominal values along directions (n, p) of the parameters.
+
+        To where they are nearest by their tolerances: what is known best moves least.
+        """
+        across = directions * self._spread[: directions.shape[1]] ** -2.0
+        size = np.linalg.norm(across, axis=1, keepdims=True)
+        across *= np.linalg.norm(directions, axis=1, keepdims=True) / size
         late = np.zeros((len(directions), self.size - directions.shape[1]))
-        self._pins = np.hstack([directions, late]) / _PINNED
+        self._pins = np.hstack([across, late]) / _PINNED
 
     def weigh(self, at: Array, first: bool = False) -> None:
         """Rows and variances from what is left at a point; at `first` all rows, as they are.
