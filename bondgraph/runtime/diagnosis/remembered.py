@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from bondgraph.ir.expr import Expr, Op, Symbol, below, symbols
+from bondgraph.ir.expr import Expr, Kind, Op, Symbol, below, symbols
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Expression, Program, Ref, Sum, flat
 from bondgraph.ir.residuals import ResidualSet
@@ -71,7 +71,9 @@ def _starts(
     """
     if not own or follows:
         return frozenset(own.values())
-    found = behind(graph, [n.symbol for n in below([relation]) if n.op is Op.INT])
+    # one that sensors add up stands there as what it began with and what they have added since
+    begins = [n.symbol for n in symbols(relation) if n.symbol.kind is Kind.INITIAL]
+    found = behind(graph, [*begins, *(n.symbol for n in below([relation]) if n.op is Op.INT)])
     return frozenset(name for node, name in own.items() if node.symbol in found)
 
 

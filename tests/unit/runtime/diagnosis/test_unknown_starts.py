@@ -208,3 +208,41 @@ def test_behind_a_kill_the_starts_are_found_anew() -> None:
     assert [round(v.since) for v in faults if v.since is not None] == [30]
     named = [v.candidates[0].fault for v in said if v.candidates]
     assert named[-1] == "Vb"
+
+
+def test_a_start_that_positions_tell_stands_in_no_integral() -> None:
+    """A wheel on a shaft, K (u0 + x1 - x2) = 50 x2'', by encoders; each log begins elsewhere."""
+    c = bondgraph.compile(
+        text="""bg 1
+model Spring {
+    param K = 2e3 N.m/rad +- 10%
+    param u0 = 1e-3 rad +- 500%
+    Se:M -> 1:a -> 0:gap -> 1:b
+    a -> I:J1 = 2 kg.m^2
+    b -> I:J2 = 50 kg.m^2
+    gap -> C:spring(q0 = u0) { e = K*q }
+    sensor x1 : rad = int(a.f) counts 1e6/turn
+    sensor x2 : rad = int(b.f) counts 1e6/turn
+}""",
+        rate=_RATE,
+    )
+    (memory,) = c.diagnosis_model.memories
+    assert memory.begins == memory.unknown == ("u0",)
+    draw, time = np.random.default_rng(3), np.arange(3000) / _RATE
+    waves, logs, began = ((0.015, 1.7), (0.004, 4.1)), {}, []
+    for name, phase in (("one", 0.5), ("two", 2.5)):
+        turns = [(a, w, np.sin(w * time + phase)) for a, w in waves]
+        torque = sum(-50.0 * a * w**2 * s for a, w, s in turns)
+        began.append(torque[0] / 2.1e3)  # what the shaft is turned by
+        faster = sum(-(w**2) * (a - 50.0 * a * w**2 / 2.1e3) * s for a, w, s in turns)
+        x2 = sum(a * s for a, _, s in turns)
+        columns = {"M": 2.0 * faster + torque}
+        for position, value in (("x1", torque / 2.1e3 + x2), ("x2", x2)):
+            counts = np.floor(value * 1e6 / (2.0 * np.pi) + draw.uniform())
+            columns[position] = counts - counts[0]  # since the start
+        logs[name] = Log(time, columns, {}, {})
+    found = c.fit(logs, ["K"])
+    assert found.values["K"] == pytest.approx(2.1e3, rel=5e-3)
+    for one, truth in zip(found.starts, began, strict=True):
+        assert abs(truth) > 4e-4
+        assert one.name == "u0" and one.value == pytest.approx(truth, abs=2e-5)
