@@ -8,7 +8,9 @@ law that bends makes it, as of a square of a speed the square of its noise.
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -88,6 +90,7 @@ class ResidualRows:
             at for at, known in enumerate(engine.signals)
             if known.kind in ("input", "sensor") and known.counts is None
         ]  # fmt: skip
+        self._pool = ThreadPoolExecutor(os.cpu_count())  # compiled code runs beside all else
         draw = np.random.default_rng(1)
         self._shaken = [self._shake(p, noise, draw) for p in self.pieces]
         self._mirrored = [2.0 * p - q for p, q in zip(self.pieces, self._shaken, strict=True)]
@@ -190,19 +193,25 @@ class ResidualRows:
         off: Mapping[int, float],
         noisy: Sequence[Array],
     ) -> tuple[Array, Array]:
-        clean, added = [], []
-        every = enumerate(zip(self.pieces, noisy, self._lasts, strict=True))
-        for number, (samples, shaken, lasts) in every:
+        few, which = [], []
+        for number in range(len(self.pieces)):
             own = [self._of(number, numbers) for numbers in parameters]
             each = {tuple(numbers.items()): None for numbers in own}  # what others begin with
-            which = [list(each).index(tuple(numbers.items())) for numbers in own]
-            few = [dict(numbers) for numbers in each]
-            one = self._through(few, _moved(samples, late, off), samples, lasts)
-            more = self._through(few, _moved(shaken, late, off), samples, lasts) - one
-            _level(more, self._keep)
-            _level(one, self._stand[number])
-            clean.append(one[which])
-            added.append(more[which])
+            which.append([list(each).index(tuple(numbers.items())) for numbers in own])
+            few.append([dict(numbers) for numbers in each])
+
+        def through(number: int, samples: Array) -> Array:
+            lasts, received = self._lasts[number], self.pieces[number]
+            return self._through(few[number], _moved(samples, late, off), received, lasts)
+
+        every = range(len(self.pieces))
+        found = self._pool.map(through, (*every, *every), (*self.pieces, *noisy))
+        runs = [rows[own] for rows, own in zip(found, (*which, *which), strict=True)]
+        clean, shaken = runs[: len(every)], runs[len(every) :]
+        added = [more - one for more, one in zip(shaken, clean, strict=True)]
+        for number in every:
+            _level(added[number], self._keep)
+            _level(clean[number], self._stand[number])
         return np.concatenate(clean, axis=1), np.concatenate(added, axis=1)
 
     def _of(self, piece: int, numbers: Mapping[str, float]) -> dict[str, float]:

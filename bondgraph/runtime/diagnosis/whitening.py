@@ -39,12 +39,24 @@ def whitening(values: Array) -> Array:
 
 
 def filtered(values: Array, filters: Array) -> Array:
-    """Series (..., rows, residuals) through a filter (lags, residuals) each; NaN at the start."""
-    found = np.full_like(values, np.nan)
+    """Series (..., rows, residuals) through a filter (lags, residuals) each; NaN at the start.
+
+    And in each row that reads one without a number, whatever its share.
+
+    >>> one = filtered(np.arange(10.0)[:, None], np.eye(LAGS + 1)[:, :1])
+    >>> one[:, 0].tolist()[-2:]
+    [8.0, 9.0]
+    """
     rows = values.shape[-2]
-    found[..., LAGS:, :] = sum(
-        filters[k] * values[..., LAGS - k : rows - k, :] for k in range(LAGS + 1)
-    )
+    found: Array = values * filters[0]
+    for k in range(1, LAGS + 1):
+        if filters[k].any():
+            found[..., k:, :] += filters[k] * values[..., : rows - k, :]
+    lost = np.isnan(values)
+    if lost.any():
+        for k in range(1, LAGS + 1):
+            found[..., k:, :][lost[..., : rows - k, :]] = np.nan
+    found[..., :LAGS, :] = np.nan
     return found
 
 
