@@ -50,7 +50,7 @@ class Detection:
         self._age = np.zeros(len(residuals))  # rows since each has fired
         self.alarms = 0
         self._needed = _QUIET  # rows that have to be quiet
-        self._away = PAUSE + 1  # rows since a fault was over
+        self._away = pause + 1  # rows since a fault was over
         self._gone = _QUIET  # rows that it had to be quiet for then
         self.restart()
 
@@ -98,7 +98,7 @@ class Detection:
         """Which fire by what is too much in rows (see `Cusum`)."""
         self._age += 1.0
         if not self.alarmed:
-            self._away = min(self._away + 1, PAUSE + 1)
+            self._away = min(self._away + 1, self._pause + 1)
         return np.asarray(self._cusum.add(row, limits) & ~self.fired)
 
     def onset(self, limits: Array) -> int:

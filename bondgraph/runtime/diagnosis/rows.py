@@ -15,7 +15,7 @@ _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is o
 _SLOPE_ERROR = 0.02  # of the residual: what its sensitivities are off by
 _DOUBTED = 0.5  # of the doubt: its deviation
 CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
-PAUSE = 32  #: rows: what comes back later has been away
+PAUSE = 32  #: rows: what has never been there has been away for longer
 _LEAST, _CALM = 4, 10.0  # rows at least, or s: a line every ten seconds can be read
 _SOON = 4  # times the rows that had to be quiet: what comes back within them has not been away
 
@@ -23,12 +23,13 @@ _SOON = 4  # times the rows that had to be quiet: what comes back within them ha
 def pause(seconds: float) -> int:
     """How many rows of so many seconds what comes and goes has to be away at most to be over.
 
-    It is not told each time where that would be every few seconds; nor is it held for minutes.
+    It is not told each time where that would be every few seconds, as where a fault shows in each
+    stroke of a machine; nor is it held for minutes.
 
-    >>> pause(0.15), pause(1.0), pause(15.0)
-    (32, 10, 4)
+    >>> pause(0.02), pause(1.0), pause(15.0)
+    (500, 10, 4)
     """
-    return max(_LEAST, min(PAUSE, math.ceil(_CALM / seconds)))
+    return max(_LEAST, math.ceil(_CALM / seconds))
 
 
 def away(gap: int, needed: int, quiet: int, most: int) -> int:
