@@ -20,7 +20,7 @@ from scipy.special import chdtri, stdtrit
 
 from bondgraph.runtime.diagnosis.fitted import Left, Span, Suspect, Terms
 from bondgraph.runtime.diagnosis.left_over import follows, instruments
-from bondgraph.runtime.diagnosis.levenberg_marquardt import least
+from bondgraph.runtime.diagnosis.levenberg_marquardt import STEPS, least
 from bondgraph.runtime.diagnosis.remembered import up_to_gaps
 from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.diagnosis.whitening import (
@@ -270,9 +270,9 @@ class ErrorsInVariables:
         at = np.append((np.asarray(value) - self.nominal) / self.scale, delays)
         return float(np.sum(self._normal([at])[0] ** 2))
 
-    def solve(self, at: Array) -> Array:
-        """The parameters that leave least, with the weights as they are."""
-        return least(at, self._low, self._high, self._descent, self._costs, _ENOUGH)
+    def solve(self, at: Array, most: int = STEPS) -> Array:
+        """The parameters that leave least, with the weights as they are; after `most` steps."""
+        return least(at, self._low, self._high, self._descent, self._costs, _ENOUGH, most)
 
     def _known(self) -> Array:
         """What is known before any log, as rows (n, p) of which the squares are added."""

@@ -18,7 +18,7 @@ _LONGER = (1.0, 2.0, 4.0, 8.0)  # times the step of Gauss and Newton
 _DAMPING = (1e-3, 0.03, 1.0, 30.0)  # of its curvature
 _SINGULAR = 1e-12  # of the largest curvature: less is reckoned as so much
 _NEARER = 0.9  # of the way to a bound, in a step: behind one far away there may be no way back
-_STEPS = 50  # at most
+STEPS = 50  #: at most
 
 
 def least(
@@ -28,12 +28,13 @@ def least(
     slope: Callable[[Array], tuple[Array, Array]],
     costs: Callable[[Sequence[Array]], Array],
     enough: float,
+    most: int = STEPS,
 ) -> Array:
     """The point (p,) between `low` and `high` with the least cost, half a sum of squares.
 
     `slope` gives its gradient (p,) and its curvature (p, p) as Gauss and Newton take it, `costs`
     those of points of which the first is the one that there is, NaN where there is none. It ends
-    where a step gains less than `enough`, or promises less.
+    where a step gains less than `enough`, or promises less, after so many steps at `most`.
 
     >>> def slope(x):
     ...     by = np.array([[-20 * x[0], 10.0], [-1.0, 0.0]])
@@ -47,7 +48,7 @@ def least(
     [0.5, 0.25]
     """
     here = np.clip(at, low, high)
-    for _ in range(_STEPS):
+    for _ in range(most):
         gradient, curvature = slope(here)
         steps = _steps(gradient, curvature, _NEARER * (low - here), _NEARER * (high - here))
         if -float(gradient @ steps[0]) < enough:

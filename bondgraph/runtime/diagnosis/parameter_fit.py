@@ -29,6 +29,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 
 _FIRST = 2  # rounds with all rows: by what the declared parameters leave, no delay is known yet
 _ROUNDS = 5  # of weights from what is left, and parameters from weights
+_STEPS = 15  # of a round: what is left to go, along what nothing tells, the next one goes
 _ASKED = 3  # times that it is asked what nothing tells
 _TOLD = 0.3  # relative deviation below which a parameter is told
 _AT_BOUND = 0.99  # of that: no more is fitted, and it may be more
@@ -57,7 +58,7 @@ def fit(
     at = np.zeros(problem.size)
     for k in range(_ROUNDS):
         problem.weigh(at, first=k < _FIRST)
-        at = problem.solve(at)
+        at = problem.solve(at, _STEPS)
         progress((k + 1) / (_ROUNDS + 1))
     names = problem.names
     count = len(names)
