@@ -353,7 +353,7 @@ def _fits(left: Left, offset: bool) -> list[str]:
     if left.nothing:
         share = f"{100 * left.after / left.term:.1g} % of its largest term"
         return [f"{left.residual}: what is left is {share}, as of samples without noise"]
-    if f"{left.explained:.3f}" in ("0.000", "-0.000"):
+    if left.before and abs(left.explained) < 5e-4:
         text = "as large as at the nominal values"
     elif left.explained < 0.0:  # other residuals tell its parameters better, and move them
         text = f"{left.after / left.before:.3g} times what it is at the nominal values"

@@ -149,9 +149,11 @@ class Records:
             self.values.alike(term, unit, written.origin, "a tolerance has the unit of the value")
         nominal = self.number(value) if value is not None else None
         if not nominal:
+            help = "Give it in percent, `+- 5%`."
+            if nominal == 0:
+                help = "A share of zero is nothing: give a value that it is near, or no tolerance."
             fail(self.report, "wrong-tolerance", "An absolute tolerance needs a value that is a "
-                 "number other than zero.", written.origin, help="Give it in percent, `+- 5%`."
-                 )  # fmt: skip
+                 "number other than zero.", written.origin, help=help)  # fmt: skip
         return self.values.held(abs(quantity.number / nominal), written.origin)
 
     def number(self, expr: Expr, depth: int = 0) -> Fraction | None:

@@ -93,7 +93,6 @@ class ResidualRows:
         self._pool = ThreadPoolExecutor(os.cpu_count())  # compiled code runs beside all else
         draw = np.random.default_rng(1)
         self._shaken = [self._shake(p, noise, draw) for p in self.pieces]
-        self._mirrored = [2.0 * p - q for p, q in zip(self.pieces, self._shaken, strict=True)]
 
     def _shake(self, samples: Array, noise: Sequence[float], draw: np.random.Generator) -> Array:
         """The samples with noise once more; that of encoders in whole counts."""
@@ -163,8 +162,9 @@ class ResidualRows:
         samples have noise once: as in SIMEX (Cook and Stefanski 1994), to first order in their
         variance.
         """
+        mirrored = [2.0 * p - q for p, q in zip(self.pieces, self._shaken, strict=True)]
         up, down = (self._added([parameters], delays[None], offsets[None], noisy)[1][0]
-                    for noisy in (self._shaken, self._mirrored))  # fmt: skip
+                    for noisy in (self._shaken, mirrored))  # fmt: skip
         return np.asarray(np.nan_to_num((up + down) / 2.0))
 
     def _added(

@@ -348,3 +348,12 @@ def test_an_m_without_a_signal_is_told(line: str, told: bool) -> None:
     codes = [d.code for d in run(f"model M {{\n{BASE}{line}\n}}")[1]]
     assert ("not-modulated" in codes) == told
     assert set(codes) <= {"not-modulated", "value-without-name"}
+
+
+@pytest.mark.parametrize(
+    ("value", "remedy"), [("0 V", "A share of zero is nothing"), ("V0", "Give it in percent")]
+)
+def test_a_tolerance_of_nothing_is_told_what_would_be_one(value: str, remedy: str) -> None:
+    text = f"model M {{\n{BASE}param V0 : V\nparam a = {value} +- 1 V; let b = a\n}}"
+    (error,) = [d for d in run(text)[1] if d.severity == "error"]
+    assert error.code == "wrong-tolerance" and remedy in error.help

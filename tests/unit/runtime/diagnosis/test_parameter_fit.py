@@ -591,7 +591,7 @@ def test_friction_of_an_axis_is_told_beside_what_its_model_leaves_out() -> None:
     """A screw that turns round all the time, of which only positions are measured.
 
     The torque comes 3 ms late, as of a current loop, and the nut is 3 um from where the model has
-    it. Whitened by the noise of sensors, which is none of that, Fc was 0.15 +- 5.8 N.
+    it. Whitened by the noise of sensors, which is none of that, Fc was 0.15 +- 2.9 N.
     """
     truth = {"J": 1.26e-3, "b": 1.7e-3, "Tc": 0.17, "K": 9e6, "d": 230.0, "Fc": 66.0}
     time = np.arange(0.0, 40.01, 0.002)
