@@ -922,8 +922,8 @@ class Compilation:
         """
         own = self
         if tuning.model != self.program.digest:
-            form = tuning.form if self.options.form == "derivative" else self.options.form
-            own = self.with_options(isolate=self.options.isolate or tuning.isolate, form=form)
+            isolate, form = tuning.residuals(self.options.isolate, self.options.form)
+            own = self.with_options(isolate=isolate, form=form)
         own._check_model(tuning)
         return own.with_options(bandwidth=tuning.bandwidth, tuning=tuning)
 

@@ -354,8 +354,7 @@ def tuning_of(args: Namespace) -> Tuning | None:
             tuning = Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:
         raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
-    args.isolate = args.isolate or tuning.isolate
-    args.form = tuning.form if args.form == "derivative" else args.form
+    args.isolate, args.form = tuning.residuals(args.isolate, args.form)
     return tuning
 
 

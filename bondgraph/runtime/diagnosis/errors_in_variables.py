@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtri, stdtrit
 
-from bondgraph.runtime.diagnosis.fitted import Left, Span, Suspect, Terms
+from bondgraph.runtime.diagnosis.fitted import MUCH, Left, Span, Suspect, Terms
 from bondgraph.runtime.diagnosis.left_over import follows, instruments
 from bondgraph.runtime.diagnosis.levenberg_marquardt import STEPS, least
 from bondgraph.runtime.diagnosis.remembered import up_to_gaps
@@ -45,7 +45,6 @@ _RARE = 1e-3  # probability that some offset is suspected where there is none
 _MATTERS = 0.01  # share of what is left: an offset that explains less is not told
 _FAR = 4.0  # deviations beyond which a row is not of this machine
 _MOST = 0.5  # share of what is known of a parameter that may be left out with such rows
-_OTHER = 2.0  # times the noise of a residual: what is left has no memory that noise would tell
 _NEARLY = 0.05  # share of a residual, or of its noise, that is nearly nothing of it
 _NOTHING = 1e-4  # share of a residual that is no sum of its terms: noise makes more
 _ENOUGH = 1e-3  # half a sum of squares of deviations: less is none
@@ -149,7 +148,6 @@ class ErrorsInVariables:
         self._low[len(self.names) :], self._high[len(self.names) :] = -LATEST, LATEST
         self._pins = np.zeros((0, self.size))
         self._bent: Array | float = 0.0
-        self._share: Array | float = 1.0
         self._filters = np.zeros((LAGS + 1, len(runs.engine.residuals)))
         self._extra = np.zeros(len(runs.engine.residuals))
         self._weight = np.ones(len(runs.engine.residuals))
@@ -233,8 +231,7 @@ class ErrorsInVariables:
         clean, added = self._rows(points, more)
         mask = self._mask
         count = np.maximum(mask.sum(axis=0), 1)
-        value, extra = (np.where(mask, self._share * filtered(x, self._filters), 0.0)
-                        for x in (clean, added))  # fmt: skip
+        value, extra = (np.where(mask, filtered(x, self._filters), 0.0) for x in (clean, added))
         noise = np.nansum(extra**2, axis=-2) / count
         whole = noise + self._extra
         root = np.sqrt(np.maximum(whole, self._least))[:, None, :]
@@ -316,10 +313,10 @@ class ErrorsInVariables:
         if not first:
             clean, added = self._rows([at])
             self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)
-            much = rms(clean[0]) > _OTHER * rms(added[0])
+            much = rms(clean[0]) > MUCH * rms(added[0])  # has no memory that noise would tell
             self._noise_filters[:, much] = np.eye(LAGS + 1)[:, :1]
             self._all = self._all | np.isfinite(filtered(clean[0] + added[0], self._noise_filters))
-            self._mask, self._share = self._usual(at, clean[0])
+            self._mask = self._usual(at, clean[0])
             self._filters = self._noise_filters
         self._extra[:], self._weight[:] = 0.0, 1.0
         value, _, _, noise = self._normal([at])
@@ -328,26 +325,20 @@ class ErrorsInVariables:
         self._extra = np.where(self._homogeneous, 0.0, more * noise[0])
         self._weight = np.where(self._homogeneous, np.sqrt(1.0 + more), 1.0)
 
-    def _usual(self, at: Array, clean: Array) -> tuple[Mask, Array | float]:
+    def _usual(self, at: Array, clean: Array) -> Mask:
         """The rows without those that are far from what is usual: there it was another machine.
 
-        Unless half of what is known of some parameter is in them: then the model is wrong, and the
-        farther a row is the less it weighs, so that none pulls harder than one that is just usual
-        (Huber 1964). Beside the rows the roots of their weights.
+        Unless half of what is known of some parameter is in them: then the model is wrong.
         """
         white = np.abs(np.where(self._all, filtered(clean, self._noise_filters), np.nan))
         usual = [np.nanmedian(w) / 0.6745 if np.isfinite(w).any() else 0.0 for w in white.T]
-        limit = _FAR * np.array(usual)
-        worst = np.nan_to_num(white)
-        for lag in range(1, LAGS + 1):  # and what the filters remember of them
-            worst[lag:] = np.maximum(worst[lag:], np.nan_to_num(white[: len(white) - lag]))
-        far = worst > limit
-        self._mask, self._share = self._all, 1.0
+        far = np.zeros_like(self._all)
+        for lag in range(LAGS + 1):  # and what the filters remember of them
+            far[lag:] |= white[: len(white) - lag] > _FAR * np.array(usual)
+        self._mask = self._all
         energy = self._slopes(at).by[: len(self.names)] ** 2
         whole, part = energy.sum(axis=(1, 2)), (energy * far).sum(axis=(1, 2))
-        if not (part > _MOST * whole).any():
-            return self._all & ~far, 1.0
-        return self._all, np.sqrt(np.where(far, limit / np.where(far, worst, 1.0), 1.0))
+        return self._all if (part > _MOST * whole).any() else self._all & ~far
 
     def sound(self, at: Array, wrong: Sequence[bool]) -> Mask:
         """What is fitted of which no more than half is known by residuals that are `wrong`."""

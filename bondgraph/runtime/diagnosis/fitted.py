@@ -7,7 +7,7 @@ from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
 SURE = 1.96  #: deviations within which 95 % are
-_WRONG = 2.0  # of its noise: with more left of it a residual says that something else is there
+MUCH = 2.0  #: times its noise: with more left of it a residual says that something else is there
 _FOLLOWS = 0.2  # share that follows the inputs, above which that is another law
 _SAMPLED = 1e-4  # of the largest term: no sampled law is better
 
@@ -85,7 +85,7 @@ class Left(NamedTuple):
     @property
     def much(self) -> bool:
         """Whether it is more than noise: a disturbance, or a law that is another."""
-        return self.times > _WRONG
+        return self.times > MUCH
 
     @property
     def wrong(self) -> bool:

@@ -63,6 +63,7 @@ class ResidualRows:
         self._lasts = [
             from_the_start(engine, memories, piece.samples, bool(piece.anew)) for _, piece in enough
         ]
+        # of their first sample, and of it where no start is fitted: a constant of each piece
         of_first = {r for m in memories if not m.integral for r in m.residuals}
         fitted = [{r for m in memories if unknown_starts([m], k) for r in m.residuals}
                   for k in self.later]  # fmt: skip
@@ -253,9 +254,16 @@ class ResidualRows:
 
 
 def _level(rows: Array, residuals: Mask) -> None:
-    """Take the mean over the rows off some residuals of (sets, rows, residuals)."""
-    if residuals.any():
-        rows[:, :, residuals] -= np.nanmean(rows[:, :, residuals], axis=1, keepdims=True)
+    """Take the mean over the rows off some residuals of (sets, rows, residuals).
+
+    >>> rows = np.array([[[1.0, np.nan], [3.0, np.nan]]])
+    >>> _level(rows, np.array([True, True]))
+    >>> rows.tolist()
+    [[[-1.0, nan], [1.0, nan]]]
+    """
+    own = rows[:, :, residuals]
+    count = np.isfinite(own).sum(axis=1, keepdims=True)  # none behind a gap
+    rows[:, :, residuals] -= np.nansum(own, axis=1, keepdims=True) / np.maximum(count, 1)
 
 
 def _jumps(values: Array, read: bool = False) -> bool:

@@ -95,6 +95,14 @@ class Tuning(NamedTuple):
     isolate: bool = False
     form: Form = "derivative"
 
+    def residuals(self, isolate: bool, form: Form) -> tuple[bool, Form]:
+        """The options of its residuals, beside those that are asked for: these are not dropped.
+
+        >>> Tuning("", 1.0, 1.0, 1.0, 1.0, {}, isolate=True).residuals(False, "observer")
+        (True, 'observer')
+        """
+        return isolate or self.isolate, self.form if form == "derivative" else form
+
     def to_json(self) -> str:
         """A text for people and programs, as `bondgraph tune` writes it."""
         record = {

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bondgraph.runtime.diagnosis.detection import Detection
-from bondgraph.runtime.diagnosis.rows import Part, Row
+from bondgraph.runtime.diagnosis.rows import Part, Row, pause
 from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.log import Array
 
@@ -139,6 +139,14 @@ def test_what_comes_back_soon_is_held_for_no_more_rows_than_a_pause_has() -> Non
             detection.row(_row(0.0, 0.0), _LIMITS)
         detection = detection.resumed(json.loads(json.dumps(detection.state())))
     assert max(needed) == 5 and needed[0] == 2, needed
+
+
+def test_what_is_quiet_for_a_stroke_is_not_over_behind_a_fast_filter() -> None:
+    """Rows of 0.02 s: after 32 of them an alarm of a friction was over in each dwell of an axis."""
+    detection = Detection(["r1", "r2"], 3, pause=pause(0.02))
+    _alarm(detection, 20.0)
+    over = [detection.over(_row(0.0, 0.0), _LIMITS, lambda: np.zeros(2)) for _ in range(500)]
+    assert over.index(True) == 499
 
 
 def test_rows_in_which_the_fault_would_not_show_do_not_tell_that_it_is_over() -> None:

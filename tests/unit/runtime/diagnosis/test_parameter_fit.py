@@ -647,6 +647,16 @@ def test_noise_in_a_law_that_bends_moves_no_parameter(text: str, signal: str) ->
     assert abs(np.mean(off)) < 3.0 / math.sqrt(len(off))  # of the mean of as many
 
 
+@pytest.mark.parametrize("bent", (0.0, 0.05))
+@pytest.mark.parametrize("sigma", (0.0, 1e-3))
+def test_a_machine_that_stands_still_for_most_of_a_log_is_fitted(bent: float, sigma: float) -> None:
+    """It moves for 2.4 of 8 s; what a cube adds to 3 Ohm is between nothing and bent i^2."""
+    current = np.where(TIME < 2.4, np.sin(8.0 * TIME) + 0.5 * np.sin(21.0 * TIME), 0.0)
+    one = only(fitted(ONE, U=3.0 * current + bent * current**3, y=current + noise(sigma)))
+    assert one.error is not None
+    assert 3.0 - 1e-3 < one.value < 3.0 + 1e-3 + bent * np.max(current**2)
+
+
 class _Fickle:
     """A problem of two parameters; the logs tell the second one where it is as declared only."""
 
