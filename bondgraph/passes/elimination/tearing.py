@@ -282,6 +282,7 @@ class Loops:
             if expr is not item.expr:
                 self.pending[at] = item._replace(expr=expr)
                 done = True
+        self._sort_out()
         return done
 
     def _take_two_valued(self, groups: list[_Tied]) -> bool:
@@ -354,9 +355,13 @@ class Loops:
                 rows = tuple(dict.fromkeys((*items[found.by].rows, *items[found.row].rows)))
                 self.pending[group.members[found.row]] = _Row(rows, found.expr)
                 self.raised = done = True
+        self._sort_out()
+        return done
+
+    def _sort_out(self) -> None:
+        """Rows that torn variables have dropped out of are pending no more."""
         self.plain += [item for item in self.pending if not self._tears(item.expr)]
         self.pending = [item for item in self.pending if self._tears(item.expr)]
-        return done
 
 
 def _signals(expr: Expr) -> int:
