@@ -344,7 +344,12 @@ def _refined(case: Case, trial: _Trial, change: Array, signals: Sequence[int]) -
         tolerated = (*(case.tolerated[k] for k in kept), *starts)
         bank, rows = replayed(case, start, tolerated)
         mean, spread = _posterior(case, history, rows, len(signals))
-        level, doubt = _judged(case, rows, signals, spread)
+        # what a first count is off by is in the threshold: a start need not be told from that
+        begun = {h.fault for h in starts if h.unit == COUNT}
+        same = [k for k, h in enumerate(tolerated[: len(kept)])
+                if h.kind == "offset" and h.unit == COUNT and h.fault in begun]  # fmt: skip
+        _, told = _posterior(case, history, rows, len(signals), same)
+        level, doubt = _judged(case, rows, signals, told)
         fit = Fit(start, tolerated, starts, spread, history, bank, rows, level, doubt)
         score = _misfit(case, rows)
         if best is not None and score > best[0]:
@@ -376,14 +381,16 @@ def _starts(case: Case, signals: Sequence[int], usual: Array) -> tuple[Hypothesi
 
 
 def _posterior(
-    case: Case, history: History, rows: Sequence[Row], starts: int
+    case: Case, history: History, rows: Sequence[Row], starts: int, without: Sequence[int] = ()
 ) -> tuple[Array, Array]:
-    """What the starts, which stand last, are off by: mean and covariance."""
+    """What the starts, which stand last, are off by: mean and covariance, `without` some others."""
     own = list(case.own)
     found = History(history.prior)
     found.root = history.root
     for row in rows:
-        found.add(row.value[own], weight(row, case.sigma)[own], row.slopes[:, own], 1.0)
+        slopes = row.slopes[:, own]
+        slopes[list(without)] = 0.0
+        found.add(row.value[own], weight(row, case.sigma)[own], slopes, 1.0)
     return found.last(starts)
 
 

@@ -246,3 +246,33 @@ model Spring {
     for one, truth in zip(found.starts, began, strict=True):
         assert abs(truth) > 4e-4
         assert one.name == "u0" and one.value == pytest.approx(truth, abs=2e-5)
+
+
+@pytest.mark.parametrize("seed", (1, 2))
+def test_a_start_need_not_be_told_from_the_first_count_of_an_encoder(seed: int) -> None:
+    """A stiff shaft, u0 + x1 - x2 is less than a count of x1: the threshold has a count."""
+    c = bondgraph.compile(
+        text="""bg 1
+model Spring {
+    param K = 2e5 N.m/rad +- 10%
+    param u0 = 1e-3 rad +- 500%
+    Se:M -> 1:a -> 0:gap -> 1:b
+    a -> I:J1 = 2 kg.m^2
+    b -> I:J2 = 50 kg.m^2
+    gap -> C:spring(q0 = u0) { e = K*q }
+    sensor x1 : rad = int(a.f) counts 4096/turn
+    sensor x2 : rad = int(b.f)
+}""",
+        rate=200.0,
+    )
+    draw, time = np.random.default_rng(seed), np.arange(20000) / 200.0
+    turns = [(a, w, np.sin(w * time + 0.5)) for a, w in ((0.15, 1.7), (0.04, 4.1))]
+    torque = sum(-50.0 * a * w**2 * s for a, w, s in turns)
+    moment = torque + 2.0 * sum(-(w**2) * (a - 50.0 * a * w**2 / 2e5) * s for a, w, s in turns)
+    x2 = sum(a * s for a, _, s in turns)
+    counts = np.floor((torque / 2e5 + x2) * 4096 / (2.0 * np.pi) + draw.uniform())
+    columns = {"M": moment, "x1": counts - counts[0], "x2": x2 + 2e-6 * draw.standard_normal(20000)}
+    verdicts = bondgraph.monitor(c, {"t": time, **columns}).verdicts[0]
+    text = " ".join(v.message for v in verdicts)
+    assert "r2 is watched from now on" in text
+    assert not any(v.event == "fault" for v in verdicts)
