@@ -470,7 +470,11 @@ class Code:
 
     def _settle(self, info: ResidualInfo) -> list[str]:
         prefix = f"c->settle[{self._number(info.name)}] ="
-        call = f"samples({self.real(info.settle)}, sample_time, bandwidth);"
+        wait = self.real(info.settle)
+        if info.begins:
+            coef = self.spelling.coefs[info.begins]
+            wait += f" + bandwidth * sample_time / c->{coef}"
+        call = f"samples({wait}, sample_time, bandwidth);"
         if len(prefix) + len(call) + 5 <= self.target.width:
             return [f"    {prefix} {call}"]
         return [f"    {prefix}", f"        {call}"]
@@ -726,10 +730,9 @@ class Code:
         names = [f"r[{self._number(r)}]" for r in computed] + [n for ns in unheard for n in ns]
         settled = "if (x->youngest > c->longest && finite_number({0})) \1"
         rows = listing.statement(settled, " + ".join(names), target, 4)
-        longest = max(
-            (r for r in self.program.residuals if not r.unavailable),
-            key=lambda r: r.settle, default=None,
-        )  # fmt: skip
+        waits = [r for r in self.program.residuals if not r.unavailable]
+        waits.sort(key=lambda r: (r.settle, r.held), reverse=True)
+        longest = waits[0] if waits and waits[0].held == max(r.held for r in waits) else None
         return {
             "index_type": "uint8_t" if len(order) < 256 else "uint16_t",
             "numbers": listing.table([str(order[r]) for r in computed], target, 8),

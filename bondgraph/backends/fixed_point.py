@@ -18,7 +18,7 @@ from bondgraph.algebra import cubic_tanh
 from bondgraph.algebra.peak_gain import Unstable, peak_gains
 from bondgraph.backends.blocks import Block, blocks
 from bondgraph.backends.nominal_coefficients import nominal
-from bondgraph.backends.parts import step_part
+from bondgraph.backends.parts import begun, step_part
 from bondgraph.backends.straight_line import (
     Call,
     Linear,
@@ -100,7 +100,7 @@ def fixed_point(
 
     None, with all reasons in the report, where it cannot be had or a range is missing.
     """
-    part = step_part(program)
+    part = begun(step_part(program))
     try:
         _check_program(part)
     except Unrepresentable as error:

@@ -41,6 +41,6 @@ def nominal(program: Program) -> Nominal | None:
     back = tuple(p.seconds / time for line in lines(program).values() for p in line.past)
     pace = program.bandwidth * time
     settle = tuple(
-        None if r.unavailable else math.ceil(r.settle / pace) for r in program.residuals
+        None if r.unavailable else math.ceil(r.wait(pace) / pace) for r in program.residuals
     )
     return Nominal(found, back, settle)

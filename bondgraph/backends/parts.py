@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from bondgraph.ir.program import PolynomialTape, Program, TapeOp
+from bondgraph.ir.program import Assign, Assignment, Const, PolynomialTape, Program, Ref, TapeOp
 from bondgraph.notation.walk import reads
+from bondgraph.passes.lowering.filter import FORGOTTEN, settle
 from bondgraph.passes.lowering.prune import pruned
 
 
@@ -56,5 +57,43 @@ def _short(tape: PolynomialTape, most: dict[str, int]) -> PolynomialTape:
 
 def exact_part(program: Program) -> Program:
     """`exact` with the coefficients that it reads; the parameters are those of the whole."""
-    part = program._replace(first=(), step=(), states=(), openings=())
+    infos = tuple(info._replace(held=0.0, begins="") for info in program.residuals)
+    part = program._replace(residuals=infos, first=(), step=(), states=(), openings=())
     return pruned(part)._replace(params=program.params)
+
+
+def begun(program: Program) -> Program:
+    """The program whose laws begin at the second sample, for code that has no choice of two values.
+
+    What they make of a start is remembered then, and bounded where all ranges are: so a residual
+    waits until 1e-8 of it is left.
+    """
+    paces = {info.begins for info in program.residuals if info.begins}
+    if not paces:
+        return program
+    pace = {Ref("coef", name) for name in paces}
+    progress = {s.target for s in program.step if not pace.isdisjoint(reads([s]))}
+    states = {s.target.name for s in program.step if isinstance(s, Assign) and s.value in progress}
+
+    def later(statements: tuple[Assignment, ...], value: float) -> tuple[Assignment, ...]:
+        return tuple(
+            Assign(s.target, Const(value), s.comment, s.origin) if s.target in progress else s
+            for s in statements
+            if s.target.name not in states
+        )
+
+    return program._replace(
+        states=tuple(s for s in program.states if s.name not in states),
+        coefs=tuple(c for c in program.coefs if c.name not in paces),
+        configure=tuple(s for s in program.configure if _target(s) not in paces),
+        residuals=tuple(
+            info._replace(settle=settle(info.stages, FORGOTTEN), begins="") if info.begins else info
+            for info in program.residuals
+        ),
+        first=later(program.first, 0.0),
+        step=later(program.step, 1.0),
+    )
+
+
+def _target(statement: Assignment | PolynomialTape) -> str:
+    return "" if isinstance(statement, PolynomialTape) else statement.target.name

@@ -349,7 +349,7 @@ class _Part:
         owner = {r: at for at, block in enumerate(self.spelling.blocks) for r in block.residuals}
         rows = [
             f'("{r.name}", {owner[r.name]}, '
-            f"math.ceil({digits(r.settle)} / (bandwidth * sample_time))),"
+            f"math.ceil({digits(r.settle)} / (bandwidth * sample_time){self._begun(r)})),"
             for r in self.program.residuals
             if r.name in owner and not r.unavailable
         ]
@@ -362,6 +362,10 @@ class _Part:
             *[f"{space}    {row}" for row in rows],
             f"{space})",
         ]
+
+    def _begun(self, info: ResidualInfo) -> str:
+        """The samples until laws begin, to be added."""
+        return f" + 1.0 / self._c.{self.spelling.coefs[info.begins]}" if info.begins else ""
 
     # ------------------------------------------------------------------------- tapes
 

@@ -312,7 +312,8 @@ _EXAMPLES = {"c": _c_example, "python": _python_example}
 def _switches(program: Program) -> list[str]:
     """What a change of a mode does, for a program in which one does something."""
     path = {k.name: k.path for k in program.knowns}
-    settle = {r.name: r.settle for r in program.residuals}
+    pace = program.bandwidth / program.rate
+    settle = {r.name: r.wait(pace) for r in program.residuals}
     when: dict[tuple[str, ...], list[str]] = {}
     for opening in program.openings:
         when.setdefault(tuple(path[m] for m in opening.modes), []).append(opening.residual)
@@ -337,7 +338,8 @@ def _switches(program: Program) -> list[str]:
 def _usage(
     program: Program, facts: Facts, targets: Sequence[str], fixed: bool
 ) -> list[str]:
-    settle = max((r.settle for r in program.residuals), default=0.0)
+    pace = program.bandwidth / program.rate
+    settle = max((r.wait(pace) for r in program.residuals), default=0.0)
     wait = settle / program.bandwidth
     stem, prefix = facts.stem, snake(program.name).upper()
     found = [

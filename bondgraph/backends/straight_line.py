@@ -15,6 +15,8 @@ from bondgraph.ir.functions import SIGNED_ROOT
 from bondgraph.ir.program import (
     Assign,
     Assignment,
+    Choice,
+    Compare,
     Const,
     Expression,
     Function,
@@ -185,6 +187,11 @@ class _Writer:
                 return self._product(node)
             case Function():
                 return self._function(node)
+            case Choice(Compare("<", left, right), yes, no):
+                low, high = self._sum(left), self._sum(right)
+                if low.terms or high.terms:
+                    raise Unrepresentable("has a choice of two values", self.origin)
+                return self._sum(yes if low.constant < high.constant else no)
             case _:
                 raise Unrepresentable("has a choice of two values", self.origin)
 

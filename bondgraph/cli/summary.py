@@ -156,7 +156,7 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
             notes.append([f"  {info.name}  is approximate: {info.approximate}"])
         if info.name in anew:
             modes = " or ".join(anew[info.name])
-            wait = info.settle / program.bandwidth
+            wait = info.wait(program.bandwidth / program.rate) / program.bandwidth
             notes.append(
                 [f"  {info.name}  starts anew where {modes} changes, valid {wait:.2g} s later"]
             )

@@ -8,6 +8,7 @@ cascade of first-order stages. All arithmetic is on one type, `real`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from typing import Literal, TypeAlias, overload
 
@@ -334,12 +335,26 @@ class Dropped(NamedTuple):
     share: float  # of the largest term of the same signal, at the highest visible frequency
 
 
+def law_pace(pace: float) -> float:
+    """bandwidth * sample_time of the filter in front of laws, where that of the filter is `pace`.
+
+    See `passes.lowering.filter.Filter.inner`.
+
+    >>> law_pace(0.01), law_pace(2.0)
+    (0.1, 4.0)
+    """
+    return max(2.0 * pace, math.sqrt(pace))
+
+
 class ResidualInfo(NamedTuple):
     """What a residual is, for comments and for warm-up.
 
-    `order` is the highest derivative in exact, `stages` the number of first-order stages in step.
+    `order` is the highest derivative in exact, `stages` the number of first-order stages in step,
+    `laws` of those that signals pass before them, in front of laws with derivatives inside.
     `faults` are the faults it sees, `invisible` those of them that step cannot see at the sample
-    rate. `settle` is how many time constants (1/bandwidth) step needs before it is valid.
+    rate. `settle` is how many time constants (1/bandwidth) step needs before it is valid, after
+    `held` time constants of the filter in front of laws; `begins` is the coefficient that has the
+    part of these that a sample is.
     `approximate` says why step puts filtered derivatives into a nonlinear term ("" where step is
     the exact residual, filtered); `unavailable` why step has no value at all (never valid),
     `unwritten` why exact has none (no statement of it assigns the residual). `follows` is the
@@ -359,6 +374,13 @@ class ResidualInfo(NamedTuple):
     unavailable: str = ""
     unwritten: str = ""
     follows: str = ""
+    laws: int = 0
+    held: float = 0.0
+    begins: str = ""
+
+    def wait(self, pace: float) -> float:
+        """Time constants until step is valid, where bandwidth * sample_time is `pace`."""
+        return self.settle + self.held * pace / law_pace(pace)
 
 
 class Opening(NamedTuple):
@@ -397,7 +419,7 @@ class Program(NamedTuple):
     dropped: tuple[Dropped, ...]
     rate: float  # samples a second that the code was made for
     bandwidth: float  # rad/s, default of configure
-    warmup: float  # time constants to wait before a residual is valid
+    warmup: float  # time constants to wait before a residual is valid, laws left out (`wait`)
     tables: tuple[tuple[str, tuple[tuple[float, ...], ...]], ...]  # rows, see `ir.tables`
     integrals: tuple[Field, ...] = ()  # what exact takes besides the known signals
     time_unit: float = 1.0  # s, default of configure
@@ -405,6 +427,10 @@ class Program(NamedTuple):
     bounds: str = ""  # the program whose residuals these results are thresholds of
     openings: tuple[Opening, ...] = ()  # of the residuals that start anew where switches turn
     delayed: tuple[Delayed, ...] = ()  # past values of the known signals
+
+    def wait(self, pace: float) -> float:
+        """Time constants until nothing is left of a start, as `ResidualInfo.wait`."""
+        return self.warmup + max([r.wait(pace) - r.settle for r in self.residuals], default=0.0)
 
     def __hash__(self) -> int:
         """Of what tells programs apart: what is cached by a program is asked for again and again,

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.linalg import solve_discrete_lyapunov
-from scipy.special import gammainc
 
 from bondgraph.ir.program import Known, Program
 from bondgraph.runtime.batch import Lanes
@@ -324,8 +323,6 @@ def sensitivities(
         into[fault.name] = shift if into is signals else shift + float(fault.nominal or 0.0)
     result, sizes = _simulated(program, params, signals, runs, situation, onset)
     found: dict[str, dict[str, Array]] = {}
-    info = {i.name: i for i in program.residuals}
-    since = np.arange(len(next(iter(result.values()), ()))) / program.rate
     for k, fault in enumerate(faults):
         own = found[fault.path] = {}
         for name, r in result.items():
@@ -333,15 +330,13 @@ def sensitivities(
                 change = r[:, 2 * k] - r[:, 2 * k + 1]
             felt = np.abs(change) > _ROUNDING * max(sizes[name][2 * k : 2 * k + 2])
             own[name] = np.where(felt, change / (2 * fault.step), 0.0)
-            if onset and fault.nominal is not None and info[name].approximate:
-                # Its laws act on filtered signals, which a change of the machine moves no faster.
-                own[name] *= gammainc(info[name].stages, program.bandwidth * since)
     return found
 
 
 def _settled(program: Program) -> int:
     """The samples after which a residual has forgotten how it began."""
-    return math.ceil(program.warmup / program.bandwidth * program.rate) + 1
+    pace = program.bandwidth / program.rate
+    return math.ceil(program.wait(pace) / pace) + 1
 
 
 def _period(program: Program, situation: Situation) -> int:

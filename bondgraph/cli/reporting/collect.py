@@ -166,7 +166,7 @@ def _facts(compilation: Compilation, program: Program | None) -> Iterator[tuple[
         f"{plural(done.faults, 'fault')} one at a time",
     )
     if program is not None:
-        wait = program.warmup / program.bandwidth
+        wait = program.wait(program.bandwidth / program.rate) / program.bandwidth
         yield (
             "Code",
             f"{often(program.rate)}, filter of {program.bandwidth:g} rad/s,"

@@ -33,13 +33,13 @@ from bondgraph.notation.walk import nodes
 from bondgraph.passes.lowering.builder import Builder, Signal
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
+from bondgraph.passes.lowering.law_chain import law_stages, order
 from bondgraph.passes.lowering.luenberger import Luenberger
 from bondgraph.passes.lowering.near_functions import near_functions
 from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.program_names import brief, identifier, short
 from bondgraph.passes.lowering.prune import pruned
-from bondgraph.passes.lowering.stages import order
 from bondgraph.passes.lowering.switched import Switched
 from bondgraph.passes.lowering.tape import Large, filled, large
 from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
@@ -214,7 +214,8 @@ def _realise(
     if not isinstance(found, str):
         stages = max(stages, 1)
         window = switched.window(residual, found.joined.kept, stages)
-        chain = switched.chain(residual, stages, window)
+        laws = law_stages(found.own.kept)
+        chain = switched.chain(residual, stages, laws, window)
         try:
             chain.run(found.own.kept, text)
         except TooManyOperations:
@@ -228,8 +229,11 @@ def _realise(
     moving = [t for t in found.own.kept if not t.static]
     info = info._replace(
         stages=stages,
+        laws=laws,
         invisible=unseen_faults(builder, faults, found.apart, options.rate, options.resolution),
         settle=settle(stages) if window is None else window.over,
+        held=chain.held,
+        begins=chain.begins,
         approximate=_reason(moving),
     )
     dropped = [Dropped(name, brief(t.atom), t.order, share) for t, share in found.own.dropped]
@@ -263,6 +267,9 @@ def _followed(
         stages=chain.stages,
         invisible=() if low.info.unavailable else low.info.invisible,
         settle=settle(chain.stages),
+        laws=0,
+        held=0.0,
+        begins="",
         approximate="",
         unavailable="",
         follows=observer.sensor,
@@ -373,7 +380,7 @@ def with_tables(program: Program, pool: Pool) -> Program:
 
 
 #: What a program without is the same as it was before there was such a field.
-_ADDED = ("openings", "follows", "delayed", "offset")
+_ADDED = ("openings", "follows", "delayed", "offset", "laws", "held", "begins")
 
 
 def digest(program: Program, text: str, tolerances: Iterable[tuple[str, float]]) -> str:

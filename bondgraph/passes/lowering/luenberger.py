@@ -105,7 +105,7 @@ class Luenberger(Chain):
         """The statements of one entry point: everything is read before anything is kept."""
 
         def leaf(node: Expr) -> Expression | None:
-            return memory.get(node) or self._leaf(node, False)
+            return memory.get(node) or self._sample(node)
 
         made = self.builder.hoist, self.builder.is_constant
         work = Procedure(self.pool, leaf, out.append, self.names, f"{self.name}_", *made)

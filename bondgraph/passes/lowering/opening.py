@@ -40,9 +40,10 @@ _FEWEST = 40  # samples that the window is sampled with, where the filter is fas
 class Window:
     """Writes what the chains of one residual have to know of the time since its last start.
 
-    `over` is that time in time constants until the residual is valid. With an `order` phi is there
-    too, and enough of its derivatives for terms of that order: it is a polynomial that joins 0 and
-    1 so smoothly that sampling it costs nothing. Without, the filter goes on and only waits.
+    `over` is that time in time constants until the residual is valid, after `held` of the filter in
+    front of laws. With an `order` phi is there too, and enough of its derivatives for terms of that
+    order: it is a polynomial that joins 0 and 1 so smoothly that sampling it costs nothing.
+    Without, the filter goes on and only waits.
     """
 
     def __init__(
@@ -53,13 +54,14 @@ class Window:
         origin: Span,
         modes: tuple[Expr, ...],
         over: float,
+        held: float,
         order: int | None,
     ) -> None:
         self.names = Names()
         self.first: list[Assign] = []
         self.step: list[Assign] = []
         self.states: list[Field] = []
-        self.order, self.over = order, over
+        self.order, self.over, self.held = order, over, held
         self._builder, self._filter = builder, filter
         self._name, self._origin = name, origin
         signals = [builder.signals[mode] for mode in modes]
@@ -107,6 +109,10 @@ class Window:
         """How far the start is gone, and phi with the derivatives that `order` asks for."""
         pool, coef = self._builder.pool, self._builder.coef
         steps = pool.scale(1 / Fraction(over), self._filter.pace)
+        if self.held:
+            parts = (over, self._filter.pace), (self.held, self._filter.inner.pace)
+            took = [(Fraction(n), pool.power(pace, -1)) for n, pace in parts]
+            steps = pool.power(pool.add(*took), -1)
         steps = pool.fn("min", steps, pool.num(Fraction(1, _FEWEST)))
         pace = coef(steps, f"{self._name}_pace", "part of the start that a sample is")
         ahead = Function("min", (ONE, Sum(((True, progress), (True, pace)))))

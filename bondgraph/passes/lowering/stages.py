@@ -20,10 +20,8 @@ neither a delay nor a memory more (docs/decisions/hold.md).
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import comb
 
-from bondgraph.algebra.derivative import TooManyOperations, operations
-from bondgraph.ir.expr import Expr, Kind, Op, topological
+from bondgraph.ir.expr import Expr, Kind, Op
 from bondgraph.ir.normal import Term
 from bondgraph.ir.program import (
     Assign,
@@ -37,9 +35,10 @@ from bondgraph.ir.program import (
 )
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder, Signal
-from bondgraph.passes.lowering.exactly import LARGEST, label, total
+from bondgraph.passes.lowering.exactly import label, total
 from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.integrals import gathered
+from bondgraph.passes.lowering.opening import Window
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure, positive_part
 from bondgraph.passes.lowering.program_names import Names, identifier, short
 
@@ -64,7 +63,7 @@ class Chain:
         filter: Filter,
         residual: Residual,
         stages: int,
-        names: Names | None = None,
+        window: Window | None = None,
     ) -> None:
         self.builder = builder
         self.pool = builder.pool
@@ -73,37 +72,34 @@ class Chain:
         self.name = identifier(residual.name)
         self.origin = residual.closing.origin
         self.stages = stages
+        #: Time constants of the filter in front of laws until they begin, and what counts them.
+        self.held, self.begins = 0.0, ""
         self.first: list[Assignment] = []
         self._begun = 0  # statements of `first` that only empty the memory
         self.step: list[Assignment] = []
         self.states: list[Field] = []
-        self.names = names or Names()
-        self._leaves: dict[tuple[Expr, bool], Expression] = {}
+        self.names = Names() if window is None else window.names
+        self._leaves: dict[Expr, Expression] = {}
         self._atoms: dict[Expr, Expression] = {}
-        self._speeds: dict[str, Expression] = {}
-        self._filtered: dict[tuple[Expr, int], Expression] = {}
-        self._ladders: dict[Expr, list[Expression]] = {}
-        #: a and b of all stages, once they are there; chains that run together may share them.
+        self._speeds: dict[tuple[str, str], Expression] = {}
+        #: What all stages share, once it is there; chains that run together may share it too.
         self.gains: dict[str, Ref] = {}
         self._static = self._procedure(self._sample)
-        self._moving = self._procedure(self._smooth)
 
     # ---------------------------------------------------------- statements
 
     def run(self, terms: tuple[Term, ...], text: str) -> None:
-        """Append the statements of the residual, made of the given terms.
+        """Append the statements of the residual, made of the given terms, all of them static."""
+        self.highest = max([max(t.order, 0) for t in terms], default=0)
+        self._both(Assign(Ref("residual", self.name), self._output(terms), text, self.origin))
 
-        Raises `TooManyOperations`, before anything is written, if its nonlinear terms need more
-        than `LARGEST`.
-        """
-        self.highest = max(map(order, terms), default=0)
-        outside = self._approximate([t for t in terms if not t.static])
+    def _output(self, terms: tuple[Term, ...]) -> Expression:
+        """The sum of terms that hold no derivative, filtered."""
+        outside: list[tuple[bool, Expression]] = []
         orders, speeds, bare = Parts(), Parts(), Parts()
         integrals: dict[int, list[Term]] = {}
         by_atom: dict[Expr, list[Term]] = {}
         for term in terms:
-            if not term.static:
-                continue
             if term.atom is self.pool.one and term.order == 0:
                 # filtered like all else, so that a parameter in it may change at any time
                 orders.add(0, *self._signed(term.coefficient, "constant", "constant part"))
@@ -118,8 +114,7 @@ class Chain:
         if integrals:
             self._integrated(integrals, orders, bare)
         self._turned(speeds, bare)
-        output = self._horner(self._bent(orders, bare), outside)
-        self._both(Assign(Ref("residual", self.name), output, text, self.origin))
+        return self._horner(self._bent(orders, bare), outside)
 
     def _both(self, statement: Assignment) -> None:
         self.first.append(statement)
@@ -137,27 +132,32 @@ class Chain:
 
     def _stage(self, entry: Expression, wish: str, comment: str) -> Expression:
         """One first-order stage: its output at this sample."""
-        a, b = self._gains()
+        return self._through(self.filter, entry, wish, comment)
+
+    def _through(self, filter: Filter, entry: Expression, wish: str, comment: str) -> Expression:
+        """One first-order stage of some filter."""
+        a, b = self._gains(filter)
         state = self._empty(f"s{wish}", f"memory of {comment}")
         output = Ref("local", self.names.new(f"{self.name}_y{wish}"))
         new = Product((b, entry))
-        self._both(Assign(output, _plus(state, new), comment, self.origin))
-        kept = _plus(Product((a, output)), new)
+        self._both(Assign(output, plus(state, new), comment, self.origin))
+        kept = plus(Product((a, output)), new)
         self._both(Assign(state, kept, comment, self.origin))
         return output
 
-    def _gains(self) -> tuple[Ref, Ref]:
+    def _gains(self, filter: Filter) -> tuple[Ref, Ref]:
         """a and b of a stage: those of a stage at rest on the first sample."""
-        if not self.gains:
-            a, b = self.filter.coefficients(self.builder)
+        names = f"{filter.of}a", f"{filter.of}b"
+        if names[0] not in self.gains:
+            a, b = filter.coefficients(self.builder)
             start: Expression = Product((Const(-1.0), b))
-            pairs = (("a", a, start), ("b", b, ONE))
-            for at, (name, usual, at_first) in enumerate(pairs):
+            pairs = zip(names, ((a, start), (b, ONE)), strict=True)
+            for at, (name, (usual, at_first)) in enumerate(pairs):
                 gain = self.gains[name] = Ref("local", self.names.new(f"{self.name}_{name}"))
                 comment = f"{self.name}: a stage of the filter; on the first sample it is at rest"
                 self.step.insert(at, Assign(gain, usual, comment, self.origin))
                 self.first.insert(self._begun + at, Assign(gain, at_first, comment, self.origin))
-        return self.gains["a"], self.gains["b"]
+        return self.gains[names[0]], self.gains[names[1]]
 
     def _empty(self, wish: str, doc: str) -> Ref:
         """A state that is 0 at the start."""
@@ -192,7 +192,7 @@ class Chain:
         elif k:
             value = pool.mul(term.coefficient, pool.power(self.filter.rate, k - 1))
             sign, factor = self._signed(value, f"w{k}_{words}", f"factor of {told}")
-            speed = self._speed(signal)
+            speed = self._speed(signal, self.filter)
             speeds.add(k, sign, speed if factor == ONE else Product((factor, speed)))
         else:
             scaled = pool.mul(term.coefficient, signal.scale)
@@ -264,8 +264,14 @@ class Chain:
         value = total(parts)
         return value if isinstance(value, Ref) else self._within(wish, value, comment)
 
-    def _horner(self, degrees: Parts, outside: list[tuple[bool, Expression]]) -> Expression:
+    def _horner(
+        self,
+        degrees: Parts,
+        outside: list[tuple[bool, Expression]],
+        stage: Callable[[Expression, str, str], Expression] | None = None,
+    ) -> Expression:
         """All stages: what comes out at this sample."""
+        stage = stage or self._stage
         powers = self._powers_of_h(degrees)
         inputs = Parts({0: list(outside)})
         for at, terms in enumerate(powers, self.stages + 1 - len(powers)):
@@ -277,7 +283,7 @@ class Chain:
                 parts.insert(0, (True, output))
             if parts:
                 entry = self._within(f"u{m}", total(parts), f"{self.name}: stage {m}")
-                output = self._stage(entry, f"{m}", f"{self.name}: stage {m}")
+                output = stage(entry, f"{m}", f"{self.name}: stage {m}")
         return total([*([] if output is None else [(True, output)]), *inputs[0]])
 
     def _powers_of_h(self, degrees: Parts) -> list[list[tuple[bool, Expression]]]:
@@ -300,25 +306,25 @@ class Chain:
             ]
         return found
 
-    def _speed(self, signal: Signal) -> Expression:
+    def _speed(self, signal: Signal, filter: Filter) -> Expression:
         """H D of an encoder, from the counts of this sample: no position is formed."""
         assert signal.scale is not None
-        found = self._speeds.get(signal.name)
+        found = self._speeds.get((filter.of, signal.name))
         if found is not None:
             return found
-        coef, f = self.builder.coef, self.filter
-        factor = self.pool.mul(f.count, signal.scale)
-        gain = coef(factor, f"{signal.name}_gain", f"speed of {signal.declared.name} for one count")
-        a, _ = f.coefficients(self.builder)
-        state = self._empty(f"{signal.name}_speed", f"filtered speed of {signal.declared.name}")
-        speed = Ref("local", self.names.new(f"{self.name}_{signal.name}_speed"))
+        coef, wish = self.builder.coef, f"{filter.of}{signal.name}"
+        factor = self.pool.mul(filter.count, signal.scale)
+        gain = coef(factor, f"{wish}_gain", f"speed of {signal.declared.name} for one count")
+        a, _ = filter.coefficients(self.builder)
+        state = self._empty(f"{wish}_speed", f"filtered speed of {signal.declared.name}")
+        speed = Ref("local", self.names.new(f"{self.name}_{wish}_speed"))
         self.builder.sampled[signal.name] = None
         count = Ref("increment", signal.name)
         comment = f"filtered speed of {signal.declared.name}"
-        value = _plus(Product((a, state)), Product((gain, count)))
+        value = plus(Product((a, state)), Product((gain, count)))
         self._both(Assign(speed, value, comment, self.origin))
         self._both(Assign(state, speed, comment, self.origin))
-        self._speeds[signal.name] = speed
+        self._speeds[filter.of, signal.name] = speed
         return speed
 
     # ----------------------------------------------------------- integrals
@@ -381,9 +387,9 @@ class Chain:
         value = Ref("local", self.names.new(f"{self.name}_area"))
         gain = Product((half, rate))
         comment = f"{self.name}: its integral since the start, by the trapezoid rule"
-        self.step.append(Assign(value, _plus(state, gain), comment, self.origin))
+        self.step.append(Assign(value, plus(state, gain), comment, self.origin))
         self.first.append(Assign(value, ZERO, comment, self.origin))
-        self._both(Assign(state, _plus(value, gain), comment, self.origin))
+        self._both(Assign(state, plus(value, gain), comment, self.origin))
         return value
 
     def _adams(self, rate: Expression, comment: str) -> Expression:
@@ -452,28 +458,15 @@ class Chain:
 
     def _sample(self, node: Expr) -> Expression | None:
         """A leaf of a static value: a sample, or an integral of samples."""
-        return self._leaf(node, False)
-
-    def _smooth(self, node: Expr) -> Expression | None:
-        """A leaf of a value with derivatives inside: everything comes from the filter."""
-        order, inner = 0, node
-        while inner.op is Op.DER:
-            order, inner = order + 1, inner.args[0]
-        if inner in self.builder.signals and inner.symbol.kind is not Kind.MODE:
-            return self._state_variable(inner, order)
-        return self._leaf(node, True)
-
-    def _leaf(self, node: Expr, smooth: bool) -> Expression | None:
         if node.op is Op.SYM and node in self.builder.signals:
             if node.symbol.kind is Kind.MODE:
                 return self.builder.mode(node)
-            return self._state_variable(node, 0) if smooth else self._plain(node)
+            return self._plain(node)
         if node.op is not Op.INT:
             return None
-        found = self._leaves.get((node, smooth))
+        found = self._leaves.get(node)
         if found is None:
-            found = self._integral(node, self._moving if smooth else self._static)
-            self._leaves[node, smooth] = found
+            found = self._leaves[node] = self._integral(node, self._static)
         return found
 
     def _integral(self, node: Expr, procedure: Procedure) -> Expression:
@@ -492,83 +485,20 @@ class Chain:
         if node.symbol == self.builder.zero_start.symbol:
             return value
         start = self.pool.symbol(node.symbol.name, node.symbol.kind)
-        return _plus(self.builder.hoist(start), value)
+        return plus(self.builder.hoist(start), value)
 
     def _plain(self, symbol: Expr) -> Expression:
         signal = self.builder.signals[symbol]
         self.builder.sampled[signal.name] = None
         if signal.scale is None:
             return Ref("known", signal.name)
-        found = self._leaves.get((symbol, False))
+        found = self._leaves.get(symbol)
         if found is None:
             factor = self.builder.hoist(signal.scale)
             value: Expression = Product((factor, Ref("total", signal.name)))
             if signal.offset is not None:
-                value = _plus(self.builder.hoist(signal.offset), value)
-            found = self._leaves[symbol, False] = self._local(signal.name, value, short(symbol))
-        return found
-
-    # ---------------------------------------------------- state variables
-
-    def _approximate(self, terms: list[Term]) -> list[tuple[bool, Expression]]:
-        """Nonlinear terms of filtered derivatives, in place of the filtered nonlinear terms."""
-        pool, jets = self.pool, self.builder.jets
-        end = len(pool) + LARGEST
-        exprs: list[Expr] = []
-        for term in terms:
-            expr = jets.of(term.atom, max(term.order, 0), end - len(pool))
-            exprs.append(pool.mul(term.coefficient, expr))
-        if operations(exprs) > LARGEST:
-            raise TooManyOperations
-        exprs = [gathered(pool, expr, self.builder.zero_start) for expr in exprs]
-        return [(True, value) for value in self._moving.values(exprs, self.origin)]
-
-    def _state_variable(self, symbol: Expr, order: int) -> Expression:
-        """p**order F H**n of a known signal, from the outputs of its own chain of n stages."""
-        found = self._filtered.get((symbol, order))
-        if found is not None:
-            return found
-        n, pool, signal = self.stages, self.pool, self.builder.signals[symbol]
-        speed = 1 if signal.scale is not None and order > 0 else 0
-        key = pool.der(symbol) if speed else symbol
-        if key not in self._ladders:
-            start = self._speed(signal) if speed else self._plain(symbol)
-            outputs = [start]
-            for j in range(1, n + 1 - speed):
-                wish = f"{signal.name}_{'d' if speed else ''}{j}"
-                outputs.append(self._stage(outputs[-1], wish, f"{short(key)}: stage {j}"))
-            self._ladders[key] = outputs
-        outputs = self._ladders[key]
-        weights: dict[int, list[tuple[int, Expr]]] = {}
-        for m, number, factor in self._powers(order, speed):
-            weights.setdefault(m, []).append((number, factor))
-        terms = []
-        for m in sorted(weights, reverse=True):
-            sign, value = positive_part(pool, pool.add(*weights[m]))
-            doc = f"filter: factor of stage {m} in derivative {order}"
-            weight = self.builder.coef(value, f"d{order}_{m}", doc)
-            terms.append((sign, outputs[m] if weight == ONE else Product((weight, outputs[m]))))
-        result = total(terms)
-        if not isinstance(result, Ref):
-            result = self._local(
-                f"{signal.name}_{order}", result, f"{short(symbol, order)}, filtered"
-            )
-        self._filtered[symbol, order] = result
-        return result
-
-    def _powers(self, order: int, speed: int) -> list[tuple[int, int, Expr]]:
-        """p**order F H**n as a polynomial in H, over H D if `speed` is 1.
-
-        Each term as the power of H, a number and a factor; a power may come twice.
-        """
-        n, k, off = self.stages, order - speed, self.highest - order
-        scale = self.pool.power(self.filter.rate, k)
-        found = [(n - order + j, (-1) ** j * comb(k, j), scale) for j in range(k + 1)]
-        if off:
-            bend = self.pool.mul(scale, self.filter.bend)
-            found += [
-                (n - order - 2 + j, -off * (-1) ** j * comb(k + 2, j), bend) for j in range(k + 3)
-            ]
+                value = plus(self.builder.hoist(signal.offset), value)
+            found = self._leaves[symbol] = self._local(signal.name, value, short(symbol))
         return found
 
 
@@ -576,22 +506,6 @@ def _number(chain: Chain, value: int) -> Expression:
     return chain.builder.number(chain.pool.num(value))
 
 
-def _plus(left: Expression, right: Expression) -> Expression:
+def plus(left: Expression, right: Expression) -> Expression:
+    """The sum of two values."""
     return Sum(((True, left), (True, right)))
-
-
-def order(term: Term) -> int:
-    """The highest derivative that a term needs, those inside its atom counted."""
-    if term.static:
-        return max(term.order, 0)
-    inside: dict[Expr, int] = {}
-    deepest = 0
-    for node in reversed(topological([term.atom])):
-        own = inside.get(node, 0)
-        deepest = max(deepest, own)
-        below = own + 1 if node.op is Op.DER else own
-        if node.op is Op.INT:
-            below = max(own - 1, 0)
-        for arg in node.args:
-            inside[arg] = max(inside.get(arg, 0), below)
-    return max(term.order, 0) + deepest

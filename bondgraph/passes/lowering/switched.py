@@ -8,15 +8,15 @@ from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.filter import Filter, settle
+from bondgraph.passes.lowering.filter import FORGOTTEN, Filter, settle
 from bondgraph.passes.lowering.jumps import Jumps
+from bondgraph.passes.lowering.law_chain import LawChain, law_stages, order
 from bondgraph.passes.lowering.opening import Window
 from bondgraph.passes.lowering.program_names import identifier
-from bondgraph.passes.lowering.stages import Chain, order
+from bondgraph.passes.lowering.stages import Chain
 from bondgraph.passes.lowering.windowed import WindowedChain
 
 _HIGHEST = 4  # order up to which a residual fades in; above, the filter has to forget
-_LEFT = 1e-8  # of what jumped, when the filter counts as having forgotten
 
 
 class Switched:
@@ -52,7 +52,9 @@ class Switched:
         if not fades and not modes:
             return None
         self.read |= dict.fromkeys(modes)
-        over = float(stages) if fades else settle(stages, _LEFT)
+        over = float(stages) if fades else settle(stages, FORGOTTEN)
+        laws = law_stages(terms)
+        held = settle(laws, FORGOTTEN) if laws else 0.0
         return Window(
             self._builder,
             self._filter,
@@ -60,14 +62,16 @@ class Switched:
             residual.closing.origin,
             modes,
             over,
+            held,
             highest if fades else None,
         )
 
-    def chain(self, residual: Residual, stages: int, window: Window | None) -> Chain:
+    def chain(self, residual: Residual, stages: int, laws: int, window: Window | None) -> Chain:
         """The chain that goes with a window."""
         if window is None or window.order is None:
-            names = None if window is None else window.names
-            return Chain(self._builder, self._filter, residual, stages, names)
+            if laws:
+                return LawChain(self._builder, self._filter, residual, stages, laws, window)
+            return Chain(self._builder, self._filter, residual, stages, window)
         return WindowedChain(self._builder, self._filter, residual, stages, window)
 
     def _jump(self, mode: Expr, terms: tuple[Term, ...]) -> bool:

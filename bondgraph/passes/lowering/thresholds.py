@@ -25,6 +25,7 @@ from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import LARGEST
 from bondgraph.passes.lowering.filter import Filter
+from bondgraph.passes.lowering.law_chain import law_stages
 from bondgraph.passes.lowering.lower import LowerOptions, digest, with_tables
 from bondgraph.passes.lowering.luenberger import Luenberger
 from bondgraph.passes.lowering.near_functions import near_functions
@@ -141,6 +142,7 @@ def _threshold(
         out.first, out.step, out.states = [*window.first], [*window.step], [*window.states]
         out.opening = window.opening
     gains: dict[str, Ref] = {}  # of all stages
+    held, begins = 0.0, ""
     for number, share in enumerate(found, 1):
         form = normalise(builder.graph.pool, share.expr, LIMIT, builder.initials)
         if form.tape is not None:
@@ -149,12 +151,14 @@ def _threshold(
         if not form.terms:
             continue
         name = f"{info.name}_w{number}"
-        chain = switched.chain(residual._replace(name=name), info.stages, window)
+        laws = max(info.laws, law_stages(form.terms))
+        chain = switched.chain(residual._replace(name=name), info.stages, laws, window)
         chain.gains = gains
         try:
             chain.run(form.terms, f"{info.path}: {_named(share)}")
         except TooManyOperations:
             return _none(out, f"written out it takes more than {LARGEST} operations")
+        held, begins = chain.held, chain.begins
         out.first += [_local(s, name) for s in chain.first]
         out.step += [_local(s, name) for s in chain.step]
         out.states += chain.states
@@ -166,7 +170,9 @@ def _threshold(
     statement = Assign(Ref("residual", info.name), total, text, residual.closing.origin)
     out.first.append(statement)
     out.step.append(statement)
-    out.info = out.info._replace(text=text, faults=tuple(words), invisible=())
+    out.info = out.info._replace(
+        text=text, faults=tuple(words), invisible=(), held=held, begins=begins
+    )
     return out
 
 
@@ -191,7 +197,8 @@ def _followed(
 def _none(out: _Threshold, why: str) -> _Threshold:
     """A threshold that step never has."""
     nothing = Assign(Ref("residual", out.info.name), ZERO, f"{out.info.path}: {why}", None)
-    none = _Threshold(out.info._replace(text="", faults=(), invisible=(), unavailable=why))
+    info = out.info._replace(text="", faults=(), invisible=(), unavailable=why, begins="")
+    none = _Threshold(info)
     none.first, none.step = [nothing], [nothing]
     return none
 

@@ -17,10 +17,11 @@ from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import label, total
 from bondgraph.passes.lowering.filter import Filter
+from bondgraph.passes.lowering.law_chain import order
 from bondgraph.passes.lowering.opening import Window
 from bondgraph.passes.lowering.procedure import ONE
 from bondgraph.passes.lowering.program_names import short
-from bondgraph.passes.lowering.stages import Chain, Parts, order
+from bondgraph.passes.lowering.stages import Chain, Parts
 
 
 class WindowedChain(Chain):
@@ -34,7 +35,7 @@ class WindowedChain(Chain):
         stages: int,
         window: Window,
     ) -> None:
-        super().__init__(builder, filter, residual, stages, window.names)
+        super().__init__(builder, filter, residual, stages, window)
         self.window = window
 
     def run(self, terms: tuple[Term, ...], text: str) -> None:

@@ -6,12 +6,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from bondgraph.ir.program import law_pace
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 
-_FASTER = 2.0  # times the bandwidth, of the filter that an approximation is held against
+_FASTER = 4.0  # times the bandwidth, of the filter that an approximation is held against
 _BIAS = 2.0  # times what that filter is off by: a bias falls with its square, noise is left over
 #: Times how far a walk goes in a row, and the root of their number. A walk over the root of time is
 #: a process of Ornstein and Uhlenbeck in the logarithm of time: it leaves c deviations c phi(c)
@@ -28,10 +29,11 @@ class Doubt:
     - A converter holds a command until the next one, so that it acts half a sample later than
       what moves in straight lines from sample to sample: as much as that makes is in doubt. What
       it made at most while noise was learned is in the noise; only where it is more, it counts.
-    - A nonlinear law of filtered derivatives is off by what the filter does to the signals. With
-      half the time constants that is a quarter. What comes out of it then is filtered by what the
-      slower filter has more: what is linear is the same by both ways, to the last digit and however
-      fast it moves, as what a fault does to a derivative. The rest shows how much it is.
+    - A nonlinear law of filtered derivatives is off by what the filter in front of it does to the
+      signals. With half the time constants that is a quarter. What comes out of it then is filtered
+      by what the slower filters have more: what is linear is the same by both ways, to the last
+      digit and however fast it moves, as what a fault does to a derivative. The rest shows how much
+      it is.
     - What adds up readings for ever adds up their noise, which walks away with the root of time.
     """
 
@@ -42,7 +44,7 @@ class Doubt:
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = sorted({place[m] for n in natures for m in n.modes})
         self._commands = [place[k.path] for k in engine.signals if k.kind == "input"]
-        self._bent = [(k, n.stages) for k, n in enumerate(natures) if n.approximate]
+        self._bent = [(k, n.stages, n.laws) for k, n in enumerate(natures) if n.approximate]
         self.reset()
 
     def reset(self) -> None:
@@ -53,7 +55,7 @@ class Doubt:
         self._late = engine.configured(bounds=False) if late else None
         faster = engine.bandwidth * _FASTER
         self._fast = engine.configured(bandwidth=faster, bounds=False) if self._bent else None
-        self._slower = [_Slower(engine, n) for _, n in self._bent]
+        self._slower = [_Slower(engine, n, laws) for _, n, laws in self._bent]
         self._sample: Array | None = None
         self.acted = np.zeros((0, count))  #: of the last samples, by how much that is in doubt
         self._peak = np.zeros((2, count))  # of this row and the one before
@@ -104,7 +106,7 @@ class Doubt:
         """What the approximations are off by: the most of this row and the one before."""
         other = fast.run(samples)
         off = np.zeros_like(batch.value)
-        for (k, _), slower in zip(self._bent, self._slower, strict=True):
+        for (k, *_), slower in zip(self._bent, self._slower, strict=True):
             sound = batch.valid[:, k] & other.valid[:, k]
             slow = slower.run(other.value[:, k], other.valid[:, k])
             off[:, k] = np.where(sound, _BIAS * np.abs(batch.value[:, k] - slow), 0.0)
@@ -123,14 +125,14 @@ class Doubt:
 
 
 class _Slower:
-    """What the filter of an engine has more than one that is `_FASTER`, in so many stages."""
+    """What the filters of an engine have more than those of one that is `_FASTER`."""
 
-    def __init__(self, engine: Engine, stages: int) -> None:
-        pace = engine.bandwidth * engine.sample_time
-        kept, fast = (max(2.0 - x, 0.0) / (2.0 + x) for x in (pace, _FASTER * pace))
-        new = (1.0 - kept) / (1.0 - fast)
-        self._stage = [new, -fast * new], [1.0, -kept]  # two bilinear ones, as in `Filter`
-        self._memory = np.zeros((stages, 1))
+    def __init__(self, engine: Engine, stages: int, laws: int) -> None:
+        usual = engine.bandwidth * engine.sample_time
+        faster = _FASTER * usual
+        one = _more(usual, faster), _more(law_pace(usual), law_pace(faster))
+        self._stages = [one[0]] * stages + [one[1]] * laws
+        self._memory = np.zeros((len(self._stages), 1))
         self._sound = False
 
     def run(self, values: Array, valid: Mask) -> Array:
@@ -140,10 +142,17 @@ class _Slower:
         begins = np.flatnonzero(valid & ~np.append(self._sound, valid)[:-1]).tolist()
         found = values.copy()
         for begin, end in pairwise(sorted({0, *begins, len(values)})):
-            if begin in begins:
-                self._memory[:] = (1.0 - self._stage[0][0]) * values[begin]
-            for memory in self._memory:
+            for (above, below), memory in zip(self._stages, self._memory, strict=True):
+                if begin in begins:
+                    memory[:] = (1.0 - above[0]) * values[begin]
                 part = found[begin:end]
-                found[begin:end], memory[:] = lfilter(*self._stage, part, zi=memory)
+                found[begin:end], memory[:] = lfilter(above, below, part, zi=memory)
         self._sound = bool(valid[-1]) if len(valid) else self._sound
         return found
+
+
+def _more(usual: float, faster: float) -> tuple[list[float], list[float]]:
+    """One stage over a faster one, for bandwidth * sample_time of both: numerator, denominator."""
+    kept, fast = (max(2.0 - x, 0.0) / (2.0 + x) for x in (usual, faster))
+    new = (1.0 - kept) / (1.0 - fast)
+    return [new, -fast * new], [1.0, -kept]  # two bilinear ones, as in `Filter`

@@ -28,13 +28,14 @@ class Nature(NamedTuple):
     """How the code of a residual is off where nothing is wrong.
 
     `modes` are the switches that it reads. `approximate` says that it puts filtered derivatives
-    into a nonlinear law, `stages` how long its filter is. `drifts` if it adds up readings, and
-    their noise, for ever.
+    into a nonlinear law, `stages` and `laws` how long its filters are. `drifts` if it adds up
+    readings, and their noise, for ever.
     """
 
     modes: tuple[str, ...]
     approximate: bool
     stages: int
+    laws: int
     drifts: bool
 
 
@@ -203,6 +204,7 @@ def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict
             tuple(modes[n] for n in nodes if n in modes),
             bool(info.approximate),
             info.stages,
+            info.laws,
             any(n.op is Op.INT for n in nodes),
         )
     return found

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from bondgraph.ir.program import Known
+from bondgraph.ir.program import Known, law_pace
 from bondgraph.ir.runnable_code import Runnable, Together
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.text.tuples import NamedTuple
@@ -57,8 +57,8 @@ class Engine(Protocol):
         """Seconds from the first sample until all residuals are valid."""
 
     @property
-    def stages(self) -> tuple[int, ...]:
-        """How many stages the filter of each residual has."""
+    def stages(self) -> tuple[float, ...]:
+        """How many stages the filter of each residual has; a faster one is that part of one."""
 
     @property
     def lags(self) -> tuple[float, ...]:
@@ -142,8 +142,9 @@ class Setting(NamedTuple):
     def warm_up(self) -> float:
         """Seconds from the first sample until all residuals are valid and nothing of it is left."""
         program = self.residuals.program
-        settle = [r.settle for r in program.residuals if not r.unavailable]
-        waits = [math.ceil(s * program.rate / self.bandwidth) for s in (*settle, program.warmup)]
+        pace = self.bandwidth / program.rate
+        settle = [r.wait(pace) for r in program.residuals if not r.unavailable]
+        waits = [math.ceil(s / pace) for s in (*settle, program.wait(pace))]
         return max(waits) / program.rate + max([d.seconds for d in program.delayed], default=0.0)
 
     @property
@@ -262,7 +263,10 @@ class OfSetting:
         self.signals, self.readings = setting.signals, setting.readings
         self.sample_time = 1.0 / setting.residuals.program.rate
         self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
-        self.stages = tuple(r.stages for r in setting.residuals.program.residuals)
+        pace = self.bandwidth * self.sample_time
+        part = pace / law_pace(pace)  # of a stage, how late one in front of laws is
+        residuals = setting.residuals.program.residuals
+        self.stages = tuple(r.stages + part * r.laws for r in residuals)
         past = setting.residuals.program.delayed
         self.lags = tuple(sorted({0.0, *[d.seconds for d in past]}))
         self.parameters: Mapping[str, float] = setting.parameters

@@ -13,11 +13,13 @@ import pytest
 import bondgraph
 from bondgraph.algebra import cubic_tanh
 from bondgraph.backends.identifiers import snake
+from bondgraph.backends.parts import begun
 from bondgraph.cli.main import main
 from bondgraph.compile_options import WrongOption
 from bondgraph.ir.fixed_program import FixedProgram
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
+from tests.sampled import Sampled
 from tests.unit.backends.compilers import WARNINGS, compiler, run
 from tests.unit.backends.fixed_models import RANGES, Ranges
 from tests.unit.backends.whole_numbers import InC, Whole, largest_error, rows
@@ -145,6 +147,33 @@ def test_products_and_quotients_keep_their_bounds() -> None:
     found = largest_error(fixed, list(rows(fixed, _ROWS, 3)))
     own = fixed.residuals["r1"]
     assert 0.02 * own.fixed < found["r1"] <= own.fixed
+
+
+_GEAR = """input T; input n; param J1 = 0.8; param J2 = 1.3; param R = 0.4
+1:a { <- Se:T; -> I:J1; -> Df:w; -> MTF:g { f2 = n*f1 } -> b }
+1:b { -> I:J2; -> R:f = R }"""
+_TURNS = {"T": (-5.0, 5.0), "n": (0.5, 2.0), "w": (-3.0, 3.0)}
+
+
+def test_laws_of_derivatives_keep_their_bounds() -> None:
+    """n D(n w): what its first samples make is remembered, so that it is waited for."""
+    fixed = inline(_GEAR, _TURNS)
+    (info,) = fixed.program.residuals
+    assert info.approximate and info.laws
+    found = largest_error(fixed, list(rows(fixed, _ROWS, 2)))
+    assert 0.001 * fixed.residuals["r1"].fixed < found["r1"] <= fixed.residuals["r1"].fixed
+
+
+def test_laws_that_begin_at_once_come_to_the_same() -> None:
+    c = bondgraph.compile(text=f"bg 1\nmodel M {{\n{_GEAR}\n}}", rate=100.0, bandwidth=2.0)
+    first, later = Sampled(c.program), Sampled(begun(c.program))
+    wait = begun(c.program).residuals[0].wait(0.02) / 0.02
+    for k in range(round(wait) + 200):
+        t = k / 100.0
+        row = {"T": math.sin(t), "n": 1.2 + 0.5 * math.sin(3.0 * t), "w": 2.0 + math.cos(2.0 * t)}
+        one, other = (run.step(row).residuals["r1"] for run in (first, later))
+        if k > wait:
+            assert other == pytest.approx(one, rel=1e-6, abs=1e-7)
 
 
 # --------------------------------------------------------------------------- the code

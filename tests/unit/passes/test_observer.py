@@ -208,7 +208,7 @@ def test_a_healthy_machine_that_starts_empty(path: str) -> None:
         valid, value = np.asarray(batch.valid)[:, 0], np.asarray(batch.value)[:, 0]
         assert valid.mean() > 0.6
         most[form] = np.abs(value[valid]).max()
-    assert most["observer"] < most["derivative"] / 50
+    assert most["observer"] < most["derivative"] / 20
 
 
 def test_far_too_fast_for_the_samples() -> None:

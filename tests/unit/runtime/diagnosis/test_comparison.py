@@ -162,7 +162,7 @@ def test_a_storage_may_become_another_one_while_what_is_measured_goes_on() -> No
     slopes = bank.run(samples[begin:])[:, 0, 0]
     (stages,), pole = engine.stages, engine.bandwidth
     moved = np.where(t >= t[begin], 2.0 * np.cos(2.0 * t), 0.0)
-    for _ in range(stages):
+    for _ in range(round(stages)):
         moved = lsim(([pole], [1.0, pole]), moved, t)[1]
     jump = 30.0 * pole  # about what the step of w would make of it
     assert np.abs(np.abs(slopes) - np.abs(moved[begin:])).max() < 0.05 * 2.0 < 1e-3 * jump
