@@ -21,7 +21,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 
 _FASTER = 4.0  # times the filter before
 _LESS = 2.0  # times less that parameters have to be off by with it, in the geometric mean
-_CLOSER = math.sqrt(2.0)  # times less that has to be left of the terms, of noise it is twice more
+_HARDLY = 1.1  # the same where noise is not what they are off by
 
 
 def fit_by_filter(
@@ -37,22 +37,16 @@ def fit_by_filter(
 
     Errors are compared by the determinant of their covariance (D-optimal: Wald 1943). A faster
     filter lets more noise through, and is off by more where samples are few in a period of the
-    motion: it is taken only for errors of half the size or less. Or where less is left of the terms
-    of residuals, which noise never makes so: then it is what laws make of filtered signals.
+    motion: it is taken only for errors of half the size or less. Or of nine tenths, where much more
+    than noise is left: that may be what laws make of filtered signals, which noise does not hide.
     """
     own = engine.configured(bandwidth=usual)
     best = fit(own, pieces, free, model, noise, progress)
     while (faster := _FASTER * best.bandwidth) * engine.sample_time <= FASTEST:
         own = engine.configured(bandwidth=faster)
         found = fit(own, pieces, free, model, noise, progress)
-        tells = found.spread < best.spread - math.log(_LESS)
-        if not tells and not _left(found) < _left(best) - math.log(_CLOSER):
+        less = _HARDLY if any(x.much for x in best.left) else _LESS
+        if not found.spread < best.spread - math.log(less):
             break
         best = found
     return best
-
-
-def _left(found: Fitted) -> float:
-    """The logarithm of what is left of residuals, as a share of their largest terms; the mean."""
-    shares = [math.log(x.after / x.term) for x in found.left if x.after > 0.0 and x.term > 0.0]
-    return sum(shares) / len(shares) if shares else 0.0

@@ -67,8 +67,11 @@ def fit(
     bound = problem.bound(at)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
     left = problem.left(at)
+    spread = float(np.linalg.slogdet(covariance)[1]) / (2.0 * count)
     if any(x.much for x in left):
-        deviation = np.hypot(deviation, problem.disturbed(at, [x.much for x in left]))
+        noisy, much = deviation, [x.much for x in left]
+        deviation = np.hypot(noisy, problem.disturbed(at, much))
+        spread += float(np.log(deviation / noisy).mean()) if noisy.all() else 0.0
     told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
     sound = problem.sound(at, [x.wrong for x in left])
     values = problem.values(at).tolist()
@@ -110,8 +113,7 @@ def fit(
     return Fitted(
         own[:split], starts, own[more:], suspects, found, left, delays, seen, runs.seconds,
         covariance / np.outer(apart, apart), problem.terms(at), engine.bandwidth,
-        float(np.linalg.slogdet(covariance)[1]) / (2.0 * count),
-        len({name for name, _ in pieces}),
+        spread, len({name for name, _ in pieces}),
     )  # fmt: skip
 
 

@@ -614,7 +614,8 @@ def test_friction_of_an_axis_is_told_beside_what_its_model_leaves_out() -> None:
         assert one.value == pytest.approx(truth[one.name], rel=0.03), one.name
         if one.interval is not None:
             assert abs(one.value - truth[one.name]) < 2.0 * one.interval
-    assert found.parameters[-1].interval is not None and found.parameters[-1].interval < 5.0
+    nut = found.left[1]  # noise, beside a torque that comes late
+    assert nut.times < 2.0 and found.parameters[3].interval is not None
 
 
 CUBE = """bg 1
