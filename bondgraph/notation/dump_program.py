@@ -31,6 +31,8 @@ def dump_program(program: Program) -> str:
             f"  {info.name}: order {info.order}, {info.stages} stages,"
             f" settled after {info.settle:g} time constants"
         )
+        if info.laws:
+            lines[-1] += f"; before laws {info.laws} stages, for {info.held:g} of theirs first"
         notes = [
             ("approximate", info.approximate),
             ("unavailable", info.unavailable),

@@ -56,7 +56,6 @@ class LawChain(Chain):
         self._kept = ONE if window is None else window.kept
         self._filtered: dict[tuple[Expr, int], Expression] = {}
         self._ladders: dict[Expr, list[Expression]] = {}
-        self._integrated_inside: dict[Expr, Expression] = {}
         self._moving = self._procedure(self._smooth)
 
     def run(self, terms: tuple[Term, ...], text: str) -> None:
@@ -159,17 +158,9 @@ class LawChain(Chain):
         order, inner = 0, node
         while inner.op is Op.DER:
             order, inner = order + 1, inner.args[0]
-        if inner in self.builder.signals:
-            if inner.symbol.kind is not Kind.MODE:
-                return self._state_variable(inner, order)
-            if not order:
-                return self.builder.mode(inner)
-        if node.op is not Op.INT:
-            return None
-        found = self._integrated_inside.get(node)
-        if found is None:
-            found = self._integrated_inside[node] = self._integral(node, self._moving)
-        return found
+        if order and inner in self.builder.signals and inner.symbol.kind is not Kind.MODE:
+            return self._state_variable(inner, order)
+        return self._leaf(node, lambda symbol: self._state_variable(symbol, 0), self._moving)
 
     def _state_variable(self, symbol: Expr, order: int) -> Expression:
         """p**order F H**n of a known signal, for a law: n stages of the inner filter."""

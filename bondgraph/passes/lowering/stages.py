@@ -79,7 +79,8 @@ class Chain:
         self.step: list[Assignment] = []
         self.states: list[Field] = []
         self.names = Names() if window is None else window.names
-        self._leaves: dict[Expr, Expression] = {}
+        self._angles: dict[Expr, Expression] = {}
+        self._areas: dict[tuple[Procedure, Expr], Expression] = {}
         self._atoms: dict[Expr, Expression] = {}
         self._speeds: dict[tuple[str, str], Expression] = {}
         #: What all stages share, once it is there; chains that run together may share it too.
@@ -458,15 +459,19 @@ class Chain:
 
     def _sample(self, node: Expr) -> Expression | None:
         """A leaf of a static value: a sample, or an integral of samples."""
+        return self._leaf(node, self._plain, self._static)
+
+    def _leaf(
+        self, node: Expr, signal: Callable[[Expr], Expression], inside: Procedure
+    ) -> Expression | None:
+        """A signal, or an integral that is made once by the procedure for what is inside."""
         if node.op is Op.SYM and node in self.builder.signals:
-            if node.symbol.kind is Kind.MODE:
-                return self.builder.mode(node)
-            return self._plain(node)
+            return self.builder.mode(node) if node.symbol.kind is Kind.MODE else signal(node)
         if node.op is not Op.INT:
             return None
-        found = self._leaves.get(node)
+        found = self._areas.get((inside, node))
         if found is None:
-            found = self._leaves[node] = self._integral(node, self._static)
+            found = self._areas[inside, node] = self._integral(node, inside)
         return found
 
     def _integral(self, node: Expr, procedure: Procedure) -> Expression:
@@ -492,13 +497,13 @@ class Chain:
         self.builder.sampled[signal.name] = None
         if signal.scale is None:
             return Ref("known", signal.name)
-        found = self._leaves.get(symbol)
+        found = self._angles.get(symbol)
         if found is None:
             factor = self.builder.hoist(signal.scale)
             value: Expression = Product((factor, Ref("total", signal.name)))
             if signal.offset is not None:
                 value = plus(self.builder.hoist(signal.offset), value)
-            found = self._leaves[symbol] = self._local(signal.name, value, short(symbol))
+            found = self._angles[symbol] = self._local(signal.name, value, short(symbol))
         return found
 
 
