@@ -13,7 +13,8 @@ from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 
 _FASTER = 4.0  # times the bandwidth, of the filter that an approximation is held against
-_BIAS = 2.0  # times what that filter is off by: a bias falls with its square, noise is left over
+_FASTEST = 2.0  # bandwidth * sample_time, above which a filter is what it is there
+_BIAS = 1.5  # times what an approximation is off by as the two filters tell: noise is left over
 #: Times how far a walk goes in a row, and the root of their number. A walk over the root of time is
 #: a process of Ornstein and Uhlenbeck in the logarithm of time: it leaves c deviations c phi(c)
 #: times while time becomes e times as long, which is 0.0005 times with this one.
@@ -45,6 +46,11 @@ class Doubt:
         self._modes = sorted({place[m] for n in natures for m in n.modes})
         self._commands = [place[k.path] for k in engine.signals if k.kind == "input"]
         self._bent = [(k, n.stages, n.laws) for k, n in enumerate(natures) if n.approximate]
+        pace = engine.bandwidth * engine.sample_time
+        self._faster = max(min(_FASTER, _FASTEST / pace), 1.0)
+        usual, fast = (min(law_pace(x), _FASTEST) for x in (pace, self._faster * pace))
+        #: Times what they differ by: a bias falls with the square of the bandwidth before laws.
+        self._bias_share = _BIAS / (1.0 - (usual / fast) ** 2) if fast > usual else 0.0
         self.reset()
 
     def reset(self) -> None:
@@ -53,9 +59,9 @@ class Doubt:
         count = len(engine.residuals)
         late = bool(self._modes or self._commands)
         self._late = engine.configured(bounds=False) if late else None
-        faster = engine.bandwidth * _FASTER
+        faster = engine.bandwidth * self._faster
         self._fast = engine.configured(bandwidth=faster, bounds=False) if self._bent else None
-        self._slower = [_Slower(engine, n, laws) for _, n, laws in self._bent]
+        self._slower = [_Slower(engine, self._faster, n, laws) for _, n, laws in self._bent]
         self._sample: Array | None = None
         self.acted = np.zeros((0, count))  #: of the last samples, by how much that is in doubt
         self._peak = np.zeros((2, count))  # of this row and the one before
@@ -109,7 +115,7 @@ class Doubt:
         for (k, *_), slower in zip(self._bent, self._slower, strict=True):
             sound = batch.valid[:, k] & other.valid[:, k]
             slow = slower.run(other.value[:, k], other.valid[:, k])
-            off[:, k] = np.where(sound, _BIAS * np.abs(batch.value[:, k] - slow), 0.0)
+            off[:, k] = np.where(sound, self._bias_share * np.abs(batch.value[:, k] - slow), 0.0)
             valid[:, k] &= sound
         start = 0
         while start < len(off):
@@ -125,11 +131,11 @@ class Doubt:
 
 
 class _Slower:
-    """What the filters of an engine have more than those of one that is `_FASTER`."""
+    """What the filters of an engine have more than those of one that is so many times faster."""
 
-    def __init__(self, engine: Engine, stages: int, laws: int) -> None:
+    def __init__(self, engine: Engine, times: float, stages: int, laws: int) -> None:
         usual = engine.bandwidth * engine.sample_time
-        faster = _FASTER * usual
+        faster = times * usual
         one = _more(usual, faster), _more(law_pace(usual), law_pace(faster))
         self._stages = [one[0]] * stages + [one[1]] * laws
         self._memory = np.zeros((len(self._stages), 1))

@@ -69,12 +69,12 @@ model Drag {
 """
 
 
-def _approximate(fast: float, step: float) -> tuple[Array, Array]:
+def _approximate(fast: float, step: float, bandwidth: float = 5.0) -> tuple[Array, Array]:
     """The residual of a body in a known motion of `fast` rad/s, and its doubt: of each row.
 
     The force is read `step` too large from 30 s on.
     """
-    made = Compilation(Source("m.bg", _DRAG), None, Options(rate=100.0, bandwidth=5.0))
+    made = Compilation(Source("m.bg", _DRAG), None, Options(rate=100.0, bandwidth=bandwidth))
     engine = made.engine()
     t = np.arange(6000) / 100.0
     x, speed = -np.cos(fast * t) / fast, np.sin(fast * t)
@@ -101,6 +101,15 @@ def test_a_law_of_a_filtered_rate_is_off_by_less_than_its_doubt(fast: float) -> 
     value, doubt = _approximate(fast, 0.0)
     assert (np.abs(value) <= doubt).all() and np.abs(value).max() > 1e-4
     assert np.median(doubt) < 4.0 * np.abs(value).max()
+
+
+@pytest.mark.parametrize("bandwidth", [60.0, 90.0, 140.0])
+def test_a_filter_as_fast_as_the_samples_is_held_against_none_that_is_faster(
+    bandwidth: float,
+) -> None:
+    """Of 100 samples a second none is faster than 200 rad/s: the mean of two samples."""
+    value, doubt = _approximate(1.0, 0.0, bandwidth)
+    assert np.abs(value).max() < 1e-3 and np.isfinite(doubt).all() and doubt.max() < 1e-2
 
 
 def test_a_step_of_what_is_linear_is_in_no_doubt_however_fast() -> None:
