@@ -213,8 +213,8 @@ def _realise(
             found = f"its order {stages - options.extra_order} is above {HIGHEST}"
     if not isinstance(found, str):
         stages = max(stages, 1)
-        window = switched.window(residual, found.joined.kept, stages)
-        laws = law_stages(found.own.kept)
+        laws = law_stages(kept)
+        window = switched.window(residual, found.joined.kept, stages, laws)
         chain = switched.chain(residual, stages, laws, window)
         try:
             chain.run(found.own.kept, text)

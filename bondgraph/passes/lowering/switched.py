@@ -10,7 +10,7 @@ from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.filter import FORGOTTEN, Filter, settle
 from bondgraph.passes.lowering.jumps import Jumps
-from bondgraph.passes.lowering.law_chain import LawChain, law_stages, order
+from bondgraph.passes.lowering.law_chain import LawChain, order
 from bondgraph.passes.lowering.opening import Window
 from bondgraph.passes.lowering.program_names import identifier
 from bondgraph.passes.lowering.stages import Chain
@@ -42,18 +42,22 @@ class Switched:
         held = normalise(builder.pool, expr, LIMIT, builder.initials, held=True)
         return form if held.tape is not None else held
 
-    def window(self, residual: Residual, terms: tuple[Term, ...], stages: int) -> Window | None:
-        """How a residual with these terms starts anew; None if it never needs to."""
-        if self._jumps is None or not any(t.order > 0 or not t.static for t in terms):
+    def window(
+        self, residual: Residual, terms: tuple[Term, ...], stages: int, laws: int
+    ) -> Window | None:
+        """How a residual with these terms starts anew; None if it never needs to.
+
+        With `laws` the terms hold derivatives in one of their forms, and fade in in none.
+        """
+        if self._jumps is None or not (laws or any(t.order > 0 for t in terms)):
             return None
         modes = tuple(m for m in self._jumps.modes if self._jump(m, terms))
         highest = max(order(t) for t in terms)
-        fades = all(map(self._fades, terms)) and highest <= min(_HIGHEST, stages - 1)
+        fades = not laws and all(map(self._fades, terms)) and highest <= min(_HIGHEST, stages - 1)
         if not fades and not modes:
             return None
         self.read |= dict.fromkeys(modes)
         over = float(stages) if fades else settle(stages, FORGOTTEN)
-        laws = law_stages(terms)
         held = settle(laws, FORGOTTEN) if laws else 0.0
         return Window(
             self._builder,

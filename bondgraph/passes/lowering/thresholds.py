@@ -137,7 +137,7 @@ def _threshold(
     found = shares(builder, kept, _STAGES // max(info.stages, 1))
     if found is None:
         return _none(out, f"its uncertain signals need more than {_STAGES} stages of the filter")
-    window = switched.window(residual, kept, info.stages)
+    window = switched.window(residual, kept, info.stages, info.laws)
     if window is not None:
         out.first, out.step, out.states = [*window.first], [*window.step], [*window.states]
         out.opening = window.opening

@@ -347,6 +347,24 @@ def test_both_programs_keep_the_same_terms_and_stages() -> None:
             )  # fmt: skip
 
 
+@pytest.mark.parametrize("law", ["k*y*f", "if(open, k*y*f, 2*k*y*f)"])
+def test_both_programs_have_the_same_filters_where_one_has_a_law_of_a_derivative(law: str) -> None:
+    """y y' is half the derivative of y^2, what a law received of y times y' is no derivative."""
+    switch = "input open : bool; " if "open" in law else ""
+    c = compiled(f"""model M {{ {switch}Se:U -> 1:i; param k = 2
+        i -> R:r {{ e = {law} }}; i -> I:L = 0.1; i -> C:C = 0.01; sensor y : C = C.q }}""")
+    (one,), (other,) = c.program.residuals, c.program_with_readings.residuals
+    assert other.approximate and not one.approximate
+    assert (one.stages, one.laws) == (other.stages, other.laws) == (3, 2)
+    assert (one.settle, one.held) == (other.settle, other.held)
+    # U = 100 y + 2 y y' + 0.1 y'' of y = 1 + sin(t)/2
+    engine, t = c.engine(), np.arange(8000) / 1000.0
+    y, rate = 1.0 + 0.5 * np.sin(t), 0.5 * np.cos(t)
+    columns = {"U": 100.0 * y + 2.0 * y * rate - 0.05 * np.sin(t), "y": y, "open": np.ones(8000)}
+    batch = engine.run(np.column_stack([columns[k.path] for k in engine.signals]))
+    assert batch.valid[-4000:].all() and np.abs(batch.value[-4000:]).max() < 1e-3
+
+
 def test_a_position_loop_with_an_encoder() -> None:
     # Kp(want - th) - Kd th' + error - b th' - J th'': an offset of the encoder shows while it moves
     c = compiled(_SERVO)
