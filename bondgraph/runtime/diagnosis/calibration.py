@@ -11,7 +11,13 @@ import numpy as np
 
 from bondgraph.ir.residual_limit import NEVER
 from bondgraph.runtime.diagnosis.cusum import Cusum
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, drifting, tolerated
+from bondgraph.runtime.diagnosis.healthy import (
+    DiagnosisModel,
+    centred,
+    directions,
+    drifting,
+    tolerated,
+)
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import (
     Bank,
@@ -32,6 +38,7 @@ from bondgraph.runtime.diagnosis.noise import (
 from bondgraph.runtime.diagnosis.remembered import up_to_gaps
 from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Row, averaged, beside, steady, weight
+from bondgraph.runtime.diagnosis.score_sums import ScoreSums
 from bondgraph.runtime.diagnosis.shown_sizes import Shown, ShownSizes
 from bondgraph.runtime.diagnosis.standing import FIRST, Levels, apart
 from bondgraph.runtime.diagnosis.started import started
@@ -152,6 +159,7 @@ class _Work:
         longest = max(logs, key=len, default=np.empty((0, len(engine.signals))))[:_CHUNK]
         self.all = sized(engine, found, self.model.nominal, longest)
         self.tolerated, self.spread = tolerated(self.all, model)
+        self.directions, self.sizes = directions(self.all, model)
         self.every = rows_apart(engine)
         self.least = _ACCURACY * self._terms(longest)
         modes = [model.natures[name].modes for name in engine.residuals]
@@ -241,12 +249,16 @@ class _Work:
             bound = np.maximum(bound, batch.bound.max(axis=0, initial=0.0))
         left = np.concatenate(rest)
         off = np.nan_to_num(left - [_mean(column) for column in left.T])
+        moves = self._moves(number, samples)
         return _Noise(
             rows,
             ((off[:-1] < 0) & (off[1:] >= 0)).sum(axis=0).astype(float),
             np.quantile(np.abs(off), 0.999, axis=0),
             np.max(excess, axis=0),
-            (*(row for _, row, _ in first), *every),
+            tuple(
+                row._replace(directions=own)
+                for row, own in zip((*(row for _, row, _ in first), *every), moves, strict=True)
+            ),
             (*(peak for *_, peak in first), *peaks),
             uncovered(np.concatenate(spaced), np.array([row.bound for row in every])),
             _averages(every, found),
@@ -264,6 +276,17 @@ class _Work:
             mean = averaged(value, valid, bound, doubt[block], slopes[block])
             row = Row(0.0, np.empty((0, len(self.engine.signals))), self.engine, *own)
             yield k, row._replace(average=mean), _beyond(Batch(value, valid, bound))
+
+    def _moves(self, number: int, samples: Array) -> Array:
+        """How faults move residuals in the mean of each row, (rows, directions, residuals)."""
+        bank = Bank(self.engines[number].configured(bounds=False), self.directions,
+                    self.model.nominal)  # fmt: skip
+        bank.reset()
+        found = [np.empty((0, len(self.directions), len(self.engine.residuals)))]
+        for part in self._parts(samples):
+            ends = np.arange(self.every, len(part) + 1, self.every) - 1
+            found.append(bank.rows(part, ends.tolist(), [self.every] * len(ends))[1])
+        return np.concatenate(found)
 
     def _chunks(
         self, samples: Array, before: Array, number: int
@@ -401,11 +424,15 @@ def _higher(
     """The same above what samples of healthy machines, watched so, and their sums come to."""
     residuals, values = engine.residuals, drifting(work.tolerated)
     own = np.array(limits(found, residuals), dtype=float)
-    cusum, sure = Cusum(len(own), healthy=True), np.ones(len(own), dtype=bool)
+    given = [h in work.tolerated for h in work.directions]
+    scores = ScoreSums(work.sizes, len(own), healthy=True, tolerated=given)
+    cusum = Cusum(len(own), healthy=True)
+    sure = np.ones(len(own), dtype=bool)
     most, goes = np.zeros((2, len(own)))
     for log in logs:
         history, levels = History(work.spread), Levels.tuned(own)
         cusum.restart()
+        scores.restart()
         waiting: deque[Row] = deque()
         mean = own[:, 4].copy()
         path = []
@@ -415,6 +442,7 @@ def _higher(
             new = history.innovation(row, sure)
             levels.ahead(alarmed=False)
             cusum.add(new, own)
+            scores.add(new, own, history)
             waiting.append(row)
             moved = levels.learn(row.time, *beside(new, own), first=True)
             if len(waiting) > HEALTHY:
@@ -428,13 +456,17 @@ def _higher(
             if number >= FIRST:
                 path.append((mean.copy(), levels.unsure))
         cusum.end()
+        scores.end()
         goes = np.maximum(goes, _farthest(path) if path else 0.0)
     heights = dict(zip(residuals, cusum.heights(own[:, 3]).max(axis=0).tolist(), strict=True))
+    along = dict(zip(residuals, scores.heights(own).max(axis=(0, 1), initial=0.0).tolist(),
+                     strict=True))  # fmt: skip
     far = dict(zip(residuals, (_ABOVE * np.stack([most, goes]).T).tolist(), strict=True))
     return {
         name: limit._replace(
             kappa=max(limit.kappa, far[name][0]) if limit.step else limit.kappa,
             height=heights[name],
+            along=along[name],
             goes=far[name][1] if limit.step else 0.0,
         )
         for name, limit in found.items()

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from bondgraph.ir.residual_limit import OVERSHOOT, SHARE, ResidualLimit
-from bondgraph.runtime.diagnosis.row_averages import LAGS
+from bondgraph.runtime.diagnosis.peaks import Peaks
+from bondgraph.runtime.diagnosis.row_averages import Before
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit
 from bondgraph.runtime.log import Array, Mask
@@ -16,9 +17,6 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 
 _LOUDER = 4.0  # times the variance of noise: twice as loud
 _SQUARE, _LOUD = 0.5 * (1.0 - 1.0 / _LOUDER), 0.5 * math.log(_LOUDER)
-_LOW = 1.0  # peaks below are not counted
-_BEFORE = 20.0  # peaks of normal rows that are reckoned with before the first one
-_ABOVE = 1.2  # times the highest peak of a healthy machine that a height stays above
 SUMS = 5  #: of each residual
 _FURTHER = np.array([[0.0], [0.0], [OVERSHOOT], [0.0], [0.0]])  # added to the heights of a mean
 
@@ -29,11 +27,8 @@ class Cusum:
     Each adds up logarithms, by how much a fault makes a row more probable, and begins anew at zero
     (Page, 1954): a mean that is one deviation off, to either side, or twice the deviation. The last
     two are of averages of rows, to either side, each with so much of those before it as leaves no
-    memory (see `Lasting`): they see what stays and is small beside the noise from row to row. Where
-    noise is independent and normal they climb higher than x so much more seldom than exp(-x); where
-    it is not, as where a machine is louder in some of its motions, that is exp(-x/s), and the
-    stretch s is seen in the peaks between two zeros (Pickands, 1975: an excess over a level is
-    exponential). Heights are s times what they are for normal rows then, and above every peak.
+    memory (see `Lasting`): they see what stays and is small beside the noise from row to row.
+    Heights are above what `Peaks` tell.
 
     `limits` have the columns of `Limit`. A sum climbs no higher than twice its
     height, so that an alarm ends soon; of a machine that is known to be `healthy` as high as it is.
@@ -41,23 +36,22 @@ class Cusum:
 
     def __init__(self, residuals: int, learns: bool = True, healthy: bool = False) -> None:
         self._learns, self._most = learns, math.inf if healthy else 2.0
-        self._count = np.zeros(residuals)  # of peaks
-        self._excess = np.zeros(residuals)  # of all of them together
-        self._highest = np.zeros((SUMS, residuals))
+        self._peaks = Peaks(SUMS, residuals)
         self._since = np.zeros((SUMS, residuals))  # rows since each sum was zero
         self.restart()
 
     def end(self) -> None:
         """A healthy log ends: where its sums stand is the end of a peak as well."""
-        self.sums = np.zeros((SUMS, len(self._count)))
-        self._learn()
+        self.sums[:] = 0.0
+        self._peaks.learn(self.sums)
 
     def restart(self) -> None:
         """The sums begin anew; what is known of peaks is still known."""
-        count = len(self._count)
-        self.sums, self._peaks = np.zeros((SUMS, count)), np.zeros((SUMS, count))
+        count = self._since.shape[1]
+        self.sums = np.zeros((SUMS, count))
+        self._peaks.restart()
         self._since[:] = 0.0
-        self._before = np.full((LAGS, 2, count), math.nan)  # averages and bounds, the last first
+        self._before = Before(2, count)  # averages and bounds
         #: Of the last row: what averages are above their bound, in deviations; NaN where unknown.
         self.excess = np.full(count, math.nan)
 
@@ -77,8 +71,7 @@ class Cusum:
 
     def heights(self, normal: Array) -> Array:
         """The heights that tell of a fault, (5, residuals); `normal` are those for normal rows."""
-        stretch = np.maximum((self._excess + _BEFORE) / (self._count + _BEFORE), 1.0)
-        return np.maximum(stretch * normal, _ABOVE * self._highest)
+        return self._peaks.heights(normal)
 
     def add(self, row: Row, limits: Array) -> Mask:
         """One row more, whose values are near zero within its bound; which residuals are too far.
@@ -98,7 +91,7 @@ class Cusum:
             after = np.clip(self.sums + more, 0.0, self._most * top)
         self.sums = np.where(known & np.isfinite(more), after, 0.0)
         if self._learns:
-            self._learn()
+            self._peaks.learn(self.sums)
         self._since = np.where(self.sums > 0.0, self._since + 1.0, 0.0)
         return np.asarray((self.sums > top).any(axis=0))
 
@@ -113,31 +106,19 @@ class Cusum:
             known = row.average.valid & (limits[:, 6] > 0.0)
             value, bound = row.average.value - limits[:, 7], row.average.bound
             own = np.where(known, [value, bound], math.nan)
-        weights = limits[:, None, 8 : 8 + LAGS].T
-        value, bound = own + np.where(weights > 0.0, weights * self._before, 0.0).sum(axis=0)
-        self._before = np.concatenate([own[None], self._before[:-1]])
+        value, bound = self._before.added(own, limits)
         self.excess = np.sign(value) * np.maximum(np.abs(value) - bound, 0.0) / limits[:, 6]
         return np.asarray((np.stack([value, -value]) - bound) / limits[:, 6] - 0.5)
 
-    def _learn(self) -> None:
-        """A peak counts when its sum is at zero again: those of a fault come to an alarm."""
-        over = (self.sums == 0.0) & (self._peaks > _LOW)
-        self._count += over.sum(axis=0)
-        self._excess += np.where(over, self._peaks - _LOW, 0.0).sum(axis=0)
-        self._highest = np.where(over, np.maximum(self._highest, self._peaks), self._highest)
-        self._peaks = np.where(self.sums == 0.0, 0.0, np.maximum(self._peaks, self.sums))
-
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
-        peaks = np.vstack([self._count, self._excess, self._highest])
-        return {"sums": numbers(self.sums), "peaks": numbers(peaks)}
+        return {"sums": numbers(self.sums), "peaks": self._peaks.state()}
 
     def resumed(self, state: dict[str, Any]) -> Cusum:
         """The same in a state; raises KeyError, TypeError or ValueError for one of another kind."""
-        other = Cusum(len(self._count), self._learns)
+        other = Cusum(self._since.shape[1], self._learns)
         other.sums = array(state["sums"], self.sums.shape)
-        peaks = array(state["peaks"], (2 + SUMS, len(self._count)))
-        other._count, other._excess, other._highest = peaks[0], peaks[1], peaks[2:]
+        other._peaks.resume(state["peaks"])
         return other
 
 

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.diagnosis.cusum import Cusum
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.rows import PAUSE, Part, Row, away
+from bondgraph.runtime.diagnosis.score_sums import ScoreSums
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
@@ -40,11 +42,20 @@ class Detection:
     """
 
     def __init__(
-        self, residuals: Sequence[str], least: int, learns: bool = True, pause: int = PAUSE
+        self,
+        residuals: Sequence[str],
+        least: int,
+        learns: bool = True,
+        pause: int = PAUSE,
+        scores: ScoreSums | None = None,
     ) -> None:
-        """How high sums climb while all is well is learned where it `learns`."""
+        """How high sums climb while all is well is learned where it `learns`.
+
+        Without `scores` no fault has a direction of its own.
+        """
         self._names, self._least, self._pause = tuple(residuals), least, pause
         self._cusum = Cusum(len(residuals), learns)
+        self._scores = scores or ScoreSums(np.zeros(0), len(residuals), learns)
         self.fired: Mask = np.zeros(len(residuals), dtype=np.bool_)
         self.most = np.zeros(len(residuals))
         self._age = np.zeros(len(residuals))  # rows since each has fired
@@ -58,6 +69,7 @@ class Detection:
         """The residuals begin anew; what has fired still has."""
         self._streak = np.zeros(len(self._names), dtype=int)
         self._cusum.restart()
+        self._scores.restart()
         # of rows of this alarm, and of their averages: 1, excess, squares
         self._sum = np.zeros((6, len(self._names)))
         self._held = np.zeros((6, len(self._names)))  # the same of rows since they are quiet
@@ -94,21 +106,26 @@ class Detection:
             if fresh.any():
                 yield k, fresh
 
-    def row(self, row: Row, limits: Array) -> Mask:
-        """Which fire by what is too much in rows (see `Cusum`)."""
+    def row(self, row: Row, limits: Array, history: History) -> Mask:
+        """Which fire by what is too much in rows (see `Cusum` and `ScoreSums`).
+
+        The `history` is what is known of the machine before.
+        """
         self._age += 1.0
         if not self.alarmed:
             self._away = min(self._away + 1, self._pause + 1)
-        return np.asarray(self._cusum.add(row, limits) & ~self.fired)
+        over = self._cusum.add(row, limits)
+        over |= self._scores.add(row, limits, history, healthy=not self.alarmed)
+        return np.asarray(over & ~self.fired)
 
     def onset(self, limits: Array) -> int:
         """Rows since something is wrong that a sum of rows tells now, 0 if none does."""
-        return self._cusum.onset(limits)
+        return max(self._cusum.onset(limits), self._scores.onset(limits))
 
     @property
     def held(self) -> Array:
         """Rows since the sums of each residual were zero: a fault may act since then."""
-        return self._cusum.held
+        return np.maximum(self._cusum.held, self._scores.held)
 
     def latch(self, fresh: Mask) -> bool:
         """These have fired; whether they are the first of an alarm."""
@@ -179,7 +196,8 @@ class Detection:
         quiet = bool((row.valid & self.fired)[self.fired].all())
         own = self._healthy[self.fired]
         self._quiet = 0 if (seen & out).any() else self._quiet + quiet
-        high = self._cusum.high(limits) | (np.abs(excess) > limits[:, 2])
+        high = self._cusum.high(limits) | self._scores.high(limits)
+        high |= np.abs(excess) > limits[:, 2]
         self._still = 0 if (row.valid & self.fired & high).any() else self._still + quiet
         enough = bool(own.sum() > _OVER)
         return (enough and self._quiet >= self._needed) or self._still >= max(self._pause, _STILL)
@@ -200,6 +218,7 @@ class Detection:
         self.fired = np.zeros_like(self.fired)
         self.most[:] = 0.0
         self._cusum.restart()
+        self._scores.restart()
         self._sum[:] = self._held[:] = self._healthy[:] = 0.0
         self._away, self._gone = 0, self._needed
 
@@ -209,17 +228,20 @@ class Detection:
             "fired": self.fired.tolist(),
             "most": numbers(self.most),
             **self._cusum.state(),
+            "scores": self._scores.state(),
             "alarms": self.alarms,
             "pause": [self._needed, self._away, self._gone],
         }
 
     def resumed(self, state: dict[str, Any]) -> Detection:
         """The same in a state; raises KeyError, TypeError or ValueError for one of another kind."""
-        other = Detection(self._names, self._least, pause=self._pause)
+        other = Detection(self._names, self._least, pause=self._pause, scores=self._scores)
         other.fired = array(state["fired"], self.fired.shape) != 0.0
         other.most = array(state["most"], self.most.shape)
         other._age[:] = math.inf  # long ago
         other._cusum = self._cusum.resumed(state)
+        if "scores" in state:  # none before 2026-11-30
+            other._scores = self._scores.resumed(state["scores"])
         other.alarms = int(state["alarms"])
         other._needed, other._away, other._gone = (int(x) for x in state["pause"])
         return other

@@ -13,7 +13,13 @@ import numpy as np
 from bondgraph.runtime.diagnosis.checkpoints import Checkpoint, Checkpoints
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.doubt import Doubt
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, drifting, slack, tolerated
+from bondgraph.runtime.diagnosis.healthy import (
+    DiagnosisModel,
+    directions,
+    drifting,
+    slack,
+    tolerated,
+)
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
 from bondgraph.runtime.diagnosis.isolation import Explained, inverse
@@ -38,6 +44,7 @@ from bondgraph.runtime.diagnosis.rows import (
     usual,
     weight,
 )
+from bondgraph.runtime.diagnosis.score_sums import ScoreSums
 from bondgraph.runtime.diagnosis.sensor_offsets import SensorOffsets, sensor_offsets
 from bondgraph.runtime.diagnosis.shared_noise import SharedNoise
 from bondgraph.runtime.diagnosis.signal_checks import SignalChecks, Unusual
@@ -93,7 +100,11 @@ class Diagnosis:
             self._levels = Levels.tuned(self._limits)
         learns = tuning is None
         most = pause(self._every * engine.sample_time)
-        self._detection = Detection(engine.residuals, max(3, self._every // 10), learns, most)
+        self._directions, sizes = directions(known, model)
+        given = [h in own for h in self._directions]
+        scores = ScoreSums(sizes, len(engine.residuals), learns, tolerated=given)
+        least = max(3, self._every // 10)
+        self._detection = Detection(engine.residuals, least, learns, most, scores)
         model.doubles()  # found now: an alarm cannot wait for it
         self._judge = Judge(engine, model)
         checked = [(k.path, at) for at, k in enumerate(engine.signals)
@@ -112,6 +123,9 @@ class Diagnosis:
         """The residuals begin anew, after a gap; what was said is still said."""
         self._bank = Bank(self._engine.configured(), self._tolerated, self._model.nominal)
         self._bank.reset()
+        bare = self._engine.configured(bounds=False)
+        self._moves = Bank(bare, self._directions, self._model.nominal)
+        self._moves.reset()
         self._doubt.reset()
         self._origins.restart(self._past)
         self._past.clear()
@@ -202,7 +216,11 @@ class Diagnosis:
         whole = np.concatenate(self._piece)
         self._judge.learn(whole)
         row = Row(float(part.time[-1]), whole, self._before, *[x[-1].copy() for x in part[2:]])
-        row = row._replace(mean=self._limits[:, 4].copy(), average=all_of(self._averages))
+        row = row._replace(
+            mean=self._limits[:, 4].copy(),
+            average=all_of(self._averages),
+            directions=self._moves.rows(whole, [len(whole) - 1], [len(whole)])[1][0].copy(),
+        )
         self._piece, self._averages, self._before = [], [], copied(self._bank.engine)
         self._past.append(row)
         if self._origins.looking:
@@ -294,7 +312,7 @@ class Diagnosis:
         unsure = False if self._learning is None else self._learning.unsure
         self._levels.ahead(self._detection.alarmed)
         own = self._innovation(row, unsure)
-        fresh = self._detection.row(own, self._limits)
+        fresh = self._detection.row(own, self._limits, self._history)
         if fresh.any():
             self._fire(row.time, fresh, [], out)
         if not self._detection.alarmed:
@@ -573,7 +591,9 @@ class Diagnosis:
 
     def resume(self, state: dict[str, Any]) -> None:
         """Go on from a state: limits that were learned, what is known of parameters and faults."""
-        levels = array(state["limits"], self._limits.shape)
+        given, columns = state["limits"], self._limits.shape[1]
+        given = [[*row, *[0.0] * (columns - len(row))] for row in given]  # fewer before 2026-11-30
+        levels = array(given, self._limits.shape)
         known = (*self._tolerated[: self._lasting], *starts_in(state["origins"]))
         history = History(array(state["prior"], (len(known),)), self._shared)
         history.root = array(state["history"], history.root.shape)

@@ -249,6 +249,19 @@ def drifting(known: Sequence[Hypothesis]) -> list[int]:
     return [at for at, one in enumerate(known) if one.kind == "value"]
 
 
+def directions(
+    known: Sequence[Hypothesis], model: DiagnosisModel
+) -> tuple[tuple[Hypothesis, ...], Array]:
+    """The faults that move residuals with the machine, and the whole of what each changes.
+
+    Parameters that are not nominally zero, and gains of signals that are not counted.
+    """
+    whole = {h: model.faults[h.fault] if h.kind == "value" else 1.0 for h in known
+             if h.kind == "value" or (h.kind == "gain" and h.level > 0.0)}  # fmt: skip
+    found = {h: size for h, size in whole.items() if size}
+    return tuple(found), np.array(list(found.values()))
+
+
 def as_it_is(
     known: Sequence[Hypothesis], nominal: Mapping[str, float], history: History
 ) -> dict[str, float]:

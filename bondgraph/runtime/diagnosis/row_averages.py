@@ -37,6 +37,23 @@ class Lasting(NamedTuple):
     unit: float
 
 
+class Before:
+    """The averages of the last rows, of which some is added to the next (see `Lasting`)."""
+
+    def __init__(self, columns: int, residuals: int) -> None:
+        self._last = np.full((LAGS, columns, residuals), math.nan)  # the last first
+
+    def added(self, own: Array, limits: Array) -> Array:
+        """Averages (columns, residuals) with so much of those before as the columns of `Limit` say.
+
+        NaN where one of them is not known.
+        """
+        weights = limits[:, None, 8 : 8 + LAGS].T
+        found = own + np.where(weights > 0.0, weights * self._last, 0.0).sum(axis=0)
+        self._last = np.concatenate([own[None], self._last[:-1]])
+        return np.asarray(found)
+
+
 def lasting(values: Array, owed: float, centred: bool, kappa: float) -> Lasting:
     """What averages (n,) of rows of a healthy residual tell, NaN where it had no value.
 

@@ -85,6 +85,7 @@ class Row(NamedTuple):
     slopes: Array  # of the tolerated parameters, wrong for ever
     mean: Array | float = 0.0  # of the residuals while all is well, that was taken off the value
     average: Average | None = None  # of its samples, if it is known
+    directions: Array | None = None  # averages of slopes by faults, (directions, residuals)
 
     def leave_out(self, which: Mask) -> None:
         """Nothing is known of some residuals."""
@@ -186,8 +187,12 @@ def weights(value: Array, valid: Mask, bound: Array, doubt: Array, sigma: Array)
 
 def variances(value: Array, bound: Array, sigma: Array) -> Array:
     """Of residuals about what linear slopes say of them, with noise of deviation `sigma`."""
-    noise = CORRELATED * sigma**2
-    return np.asarray(noise + (_MODEL_ERROR * bound) ** 2 + (_SLOPE_ERROR * value) ** 2)
+    return CORRELATED * sigma**2 + model_error(value, bound)
+
+
+def model_error(value: Array, bound: Array) -> Array:
+    """The variance of what linear slopes say wrongly of residuals."""
+    return np.asarray((_MODEL_ERROR * bound) ** 2 + (_SLOPE_ERROR * value) ** 2)
 
 
 def usual(rows: Sequence[Row]) -> list[Row]:

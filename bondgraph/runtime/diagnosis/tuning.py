@@ -21,7 +21,7 @@ _LEAST = {"sigma": 1 / _MOST, "crossings": 0.0, "kappa": 0.0, "height": 0.0, "me
           "memory": 1 / _MOST, "unit": 0.0, "stands": -_MOST, "before1": 0.0, "before2": 0.0,
           "before3": 0.0, "before4": 0.0, "walk": 0.0,
           "held": 0.0, "apart": 0.0, "step": 0.0, "most": 0.0,
-          "goes": 0.0}  # fmt: skip
+          "goes": 0.0, "along": 0.0}  # fmt: skip
 _SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filter may be, rad
 UNKNOWN = 2.0  #: deviations of what is not known yet of a healthy machine, for which there is room
 FASTEST = 0.4  #: of the rate, rad: no filter has fewer samples to work with
@@ -45,7 +45,8 @@ class Limit(NamedTuple):
     the commands makes (see `Doubt`) was `held` at most in the logs that the noise is from. These
     stand `apart` by such a deviation (see `Levels`): noise is beside where each stands. That moves
     in a row by the deviation `step`, by `most` if it surely does (see `Wander`), and surely `goes`
-    so far in a log at most: room for that has who does not follow it.
+    so far in a log at most: room for that has who does not follow it. A sum along what a fault does
+    is a fault above `along` (see `ScoreSums`), zero where that is not known.
     """
 
     sigma: float
@@ -66,6 +67,7 @@ class Limit(NamedTuple):
     step: float = 0.0
     most: float = 0.0
     goes: float = 0.0
+    along: float = 0.0
 
 
 class Tuning(NamedTuple):

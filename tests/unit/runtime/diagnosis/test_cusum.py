@@ -43,7 +43,7 @@ def _alarms(cusum: Cusum, values: Array, limits: Array) -> list[int]:
 
 def _restart(cusum: Cusum, over: np.ndarray) -> None:
     """As `Cusum.restart`, of some residuals: the others are machines of their own here."""
-    for part in (cusum.sums, cusum._peaks, cusum._since):
+    for part in (cusum.sums, cusum._peaks.open, cusum._since):
         part[:, over] = 0.0
 
 

@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from bondgraph.runtime.diagnosis.detection import Detection
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.rows import Part, Row, pause
 from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.log import Array
 
 #: Noise 1, a level of 4 sigma for samples, a sum of 3 for rows; of two residuals.
 _LIMITS = np.array([Limit(1.0, 10.0, 4.0, 3.0, 0.0, 1.0)] * 2)
+_NEW = History(np.zeros(0))  # nothing is tolerated
 
 
 def _part(value: Array) -> Part:
@@ -65,10 +67,10 @@ def test_a_threshold_that_nobody_knows_is_exceeded_by_nothing() -> None:
 
 def test_a_little_for_many_rows_fires_to_either_side() -> None:
     detection = Detection(["r1", "r2"], 3)
-    fired = [detection.row(_row(1.5, -1.5), _LIMITS).tolist() for _ in range(4)]
+    fired = [detection.row(_row(1.5, -1.5), _LIMITS, _NEW).tolist() for _ in range(4)]
     assert fired == [[False, False]] * 3 + [[True, True]]  # 1.5 - 0.5 a row, above 3 in the fourth
     noise = Detection(["r1", "r2"], 3)
-    assert not any(noise.row(_row(0.5, -0.5), _LIMITS).any() for _ in range(1000))
+    assert not any(noise.row(_row(0.5, -0.5), _LIMITS, _NEW).any() for _ in range(1000))
 
 
 def _alarm(detection: Detection, size: float, rows: int = 6) -> None:
@@ -109,7 +111,7 @@ def test_a_residual_that_swings_is_not_over_while_it_is_out() -> None:
     assert detection.latch(np.array([True, True]))
     swings = [15.0, -80.0, 210.0, -300.0, 380.0, -420.0, 415.0, -360.0, 280.0, -180.0, 60.0]
     for value in 3 * swings:
-        detection.row(_row(value, -value / 10), _LIMITS)
+        detection.row(_row(value, -value / 10), _LIMITS, _NEW)
         assert not detection.over(_row(value, -value / 3), _LIMITS)
     assert _quiet(detection) <= 3
 
@@ -121,10 +123,10 @@ def test_what_comes_back_soon_has_to_be_away_for_longer_the_next_time() -> None:
         _alarm(detection, 20.0)
         needed.append(_quiet(detection))
         for _ in range(3):  # away for three rows more
-            detection.row(_row(0.0, 0.0), _LIMITS)
+            detection.row(_row(0.0, 0.0), _LIMITS, _NEW)
     assert needed[0] == 2 and needed == sorted(needed) and needed[1] >= 8, needed
     for _ in range(40):
-        detection.row(_row(0.0, 0.0), _LIMITS)
+        detection.row(_row(0.0, 0.0), _LIMITS, _NEW)
     _alarm(detection, 20.0)
     assert _quiet(detection) == 2, "away for long: another fault"
 
@@ -136,7 +138,7 @@ def test_what_comes_back_soon_is_held_for_no_more_rows_than_a_pause_has() -> Non
         _alarm(detection, 20.0)
         needed.append(_quiet(detection))
         for _ in range(2):
-            detection.row(_row(0.0, 0.0), _LIMITS)
+            detection.row(_row(0.0, 0.0), _LIMITS, _NEW)
         detection = detection.resumed(json.loads(json.dumps(detection.state())))
     assert max(needed) == 5 and needed[0] == 2, needed
 
@@ -171,7 +173,7 @@ def test_what_the_fault_makes_of_a_row_is_no_end_of_it() -> None:
         _alarm(asked, 20.0)
         fault = np.array([now, now])
         for _ in range(100):
-            asked.row(_row(now, now), _LIMITS)
+            asked.row(_row(now, now), _LIMITS, _NEW)
             assert not asked.over(_row(now, now), _LIMITS, lambda f=fault: f)
         assert _quiet(asked, moves=fault) <= 4, "and without it, it is over"
     blind = Detection(["r1", "r2"], 3)
@@ -193,7 +195,7 @@ def test_what_no_alarm_would_be_given_for_does_not_keep_one_for_ever(
     rows, over = 0, False
     while not over and rows < 200:
         rows, noise = rows + 1, float(draw.standard_normal())
-        detection.row(_row(noise, noise), _LIMITS)
+        detection.row(_row(noise, noise), _LIMITS, _NEW)
         fault = np.array([noise, noise])
         over = detection.over(_row(noise, noise), _LIMITS, lambda f=fault: f)
     assert least <= rows <= least + 40
@@ -201,12 +203,12 @@ def test_what_no_alarm_would_be_given_for_does_not_keep_one_for_ever(
 
 def test_a_state_goes_through_json_and_another_kind_is_refused() -> None:
     detection = Detection(["r1", "r2"], 3)
-    detection.row(_row(2.0, 0.0), _LIMITS)
+    detection.row(_row(2.0, 0.0), _LIMITS, _NEW)
     detection.latch(np.array([True, False]))
     state = json.loads(json.dumps(detection.state()))
     other = detection.resumed(state)
     assert other.state() == state
-    assert detection.row(_row(2.0, 0.0), _LIMITS).tolist() == [False, False]
+    assert detection.row(_row(2.0, 0.0), _LIMITS, _NEW).tolist() == [False, False]
     for key, value in (("fired", [True]), ("sums", 3), ("alarms", "many"), ("most", None)):
         with pytest.raises((TypeError, ValueError)):
             detection.resumed({**state, key: value})

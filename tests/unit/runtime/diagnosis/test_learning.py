@@ -12,13 +12,14 @@ import pytest
 import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.detection import Detection
-from bondgraph.runtime.diagnosis.history import HEALTHY
+from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.learning import FIRST, LATE, Learning
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.source import Source
 
+_NEW = History(np.zeros(0))  # nothing is tolerated
 _TIMES = count(1.0)  # of rows that follow each other
 
 _TEXT = """bg 1
@@ -123,13 +124,13 @@ def test_rows_of_a_small_fault_are_held_back_until_it_is_told() -> None:
         detection = Detection(engine.residuals, 3)
         for value in drawn(45):
             one = row(engine, value)
-            assert not detection.row(beside(learning, one), learning.limits).any()
+            assert not detection.row(beside(learning, one), learning.limits, _NEW).any()
             told(learning, one, held=detection.held)
         before = float(learning.limits[0, 0])
         rows = 0
         for value in drawn(30, 0.5):
             one = row(engine, 3.0 + value)
-            if detection.row(beside(learning, one), learning.limits).any():
+            if detection.row(beside(learning, one), learning.limits, _NEW).any():
                 break
             if keeps:
                 learning.row(beside(learning, one), True, detection.held)
@@ -221,7 +222,7 @@ def seen_after(rate: float, start: int, seed: int) -> int:
         raw = row(engine, value + rate * max(k - start, 0))
         one = beside(learning, raw)
         high = abs(one.value[0]) > one.bound[0] + learning.levels.beyond(learning.limits)[0]
-        if high or detection.row(one, learning.limits).any():
+        if high or detection.row(one, learning.limits, _NEW).any():
             return k - start
         if not learning.over:
             learning.row(one, True, detection.held)
