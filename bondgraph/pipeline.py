@@ -250,7 +250,7 @@ class Compilation:
         return found
 
     def numbers(self, source: Source) -> Numbers:
-        """The numbers under [parameters], [offsets] and [tolerances] of a TOML text for this model.
+        """The numbers of a TOML text for this model, as `bondgraph fit` writes them.
 
         In SI. Raises `CompileError` if it is wrong.
         """

@@ -180,6 +180,10 @@ def _file(compilation: Compilation, found: Fitted) -> str:
         lines += ["", "# Relative, in place of those of the model: further logs of this machine are"
                   " within", "# them in 95 of 100. Without this section those of the model stay."]
         lines += ["[tolerances]", *tolerances]
+    if found.faster:
+        lines += ["", "# rad/s, as logs tell them much better with it than with the usual filter.",
+                  "# `tune` and `monitor` take it where no other is asked for."]
+        lines += ["[filter]", f"bandwidth = {found.bandwidth!r}"]
     lines += ["", "[standard_errors]"]
     lines += [f'"{p.name}" = {p.error!r}' for p in fitted if p.error is not None]
     return "\n".join(lines) + "\n"

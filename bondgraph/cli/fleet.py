@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Options, __version__
 from bondgraph.cli import console
 from bondgraph.cli.log_options import form_of, note, operating_of
-from bondgraph.cli.options import realising
+from bondgraph.cli.options import fitted_bandwidth, realising
 from bondgraph.cli.terminal_layout import prose, width
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.moment import moment
@@ -115,7 +115,8 @@ def _settings(args: Namespace, tuning: Tuning | None) -> WatchSettings:
     mapping = read_map(args.map, signals) if args.map else None
     operating_of(args, mapping, "log")
     form, on = form_of(args, ""), args.operating
-    return WatchSettings(compilation, tuning, form, mapping, on, args.accept)
+    fitted = fitted_bandwidth(args, compilation)
+    return WatchSettings(compilation, tuning, form, mapping, on, args.accept, fitted)
 
 
 def _found(

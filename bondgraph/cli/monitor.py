@@ -13,6 +13,7 @@ from bondgraph.cli.log_options import form_of, logged, note
 from bondgraph.cli.options import (
     bandwidth,
     count,
+    fitted_bandwidth,
     isolating,
     realised,
     realising,
@@ -97,7 +98,8 @@ def sampled(add: Callable[..., object]) -> None:
     add("--rate", metavar="HZ", type=sample_rate,
         help=f"samples a second (default: of a file its own, else {Options().rate:g})")  # fmt: skip
     add("--bandwidth", metavar="RAD/S", type=bandwidth,
-        help="bandwidth of the filter (default: by rate and length of the log)")  # fmt: skip
+        help="bandwidth of the filter (default: by rate and length of the log, or"
+        " a faster one that `bondgraph fit` took for the numbers of --parameters)")  # fmt: skip
     add("--tuning", metavar="FILE.json",
         help="limits from `bondgraph tune` (default: learned from the first seconds)")  # fmt: skip
 
@@ -174,7 +176,8 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     mapping = read_map(args.map, signals) if args.map else None
     if args.bandwidth is None and tuning is None:  # with a journal the log may grow
         grows = bool(args.journal)
-        bandwidth = usual_bandwidth(rate, source, grows, args.operating, mapping)
+        fitted = fitted_bandwidth(args, compilation)
+        bandwidth = usual_bandwidth(rate, source, grows, args.operating, mapping, fitted)
         compilation = compilation.with_options(bandwidth=bandwidth)
     engine, decided = watching(compilation, tuning, note, args.accept)
     journal = _journal(args.journal, compilation, source, engine, args.accept is not None)

@@ -248,10 +248,22 @@ def model_of(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
     known = [compilation.numbers(source) for source in filter(None, sources)]
     if not any(any(numbers) for numbers in known):
         return compilation
+    three = [(n.parameters, n.offsets, n.tolerances) for n in known]
     given, offsets, tolerances = (
-        {name: value for numbers in known for name, value in numbers[k].items()} for k in range(3)
+        {name: value for one in own for name, value in one.items()}
+        for own in zip(*three, strict=True)
     )
     return compilation.with_options(parameters=given, offsets=offsets, tolerances=tolerances)
+
+
+def fitted_bandwidth(args: Namespace, compilation: Compilation) -> float | None:
+    """That of the filter with which the numbers of `--parameters` were fitted, if it is faster than
+    the usual one."""
+    from bondgraph.frontend.read import read
+    from bondgraph.text.diagnostic import Report
+
+    source = read(args.parameters, Report()) if args.parameters else None
+    return None if source is None else compilation.numbers(source).bandwidth
 
 
 def realised(parser: ArgumentParser, usual: Form | None = "derivative") -> None:

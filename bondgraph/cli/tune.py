@@ -10,6 +10,7 @@ from bondgraph.cli import console
 from bondgraph.cli.log_options import behind_gaps, logged, read_logs, times_of
 from bondgraph.cli.options import (
     bandwidth,
+    fitted_bandwidth,
     isolating,
     positive,
     realised,
@@ -62,7 +63,8 @@ def arguments(parser: ArgumentParser) -> None:
                         help="false alarms an hour, of all residuals (default: 1)")  # fmt: skip
     parser.add_argument("--bandwidth", metavar="RAD/S", type=bandwidth, action="append", default=[],
                         help="of the filter; of several the best one is taken (default: five"
-                        " are tried)")  # fmt: skip
+                        " are tried, about the one of `bondgraph fit` if it took a faster one for"
+                        " the numbers of --parameters)")  # fmt: skip
     parser.add_argument("--window", metavar="S", type=seconds, default=None,
                         help="seconds in which a fault has to show (default: 40 time constants of"
                         " the default filter)")  # fmt: skip
@@ -83,7 +85,8 @@ def run(args: Namespace) -> int:
     try:
         compilation, engine, pieces, times = _logs(args)
         logs, later = [p.samples for _, p in pieces], [bool(p.anew) for _, p in pieces]
-        usual = _usual(1.0 / engine.sample_time, max(map(len, logs), default=0), args.window)
+        rate, fitted = 1.0 / engine.sample_time, fitted_bandwidth(args, compilation)
+        usual = _usual(rate, max(map(len, logs), default=0), args.window, fitted)
         wanted = args.bandwidth or _wanted(engine, usual, logs, _FACTORS)
         window = args.window or WINDOW / usual
         found: list[Tuned] = []
@@ -121,13 +124,15 @@ def run(args: Namespace) -> int:
     )
 
 
-def _usual(rate: float, longest: int, window: float | None = None) -> float:
-    """The filter that others are held against: `tuned_bandwidth`, no slower than a fault allows
-    that has to show within a `window` of seconds.
+def _usual(
+    rate: float, longest: int, window: float | None = None, fitted: float | None = None
+) -> float:
+    """The filter that others are held against: that with which parameters were `fitted`, or else
+    `tuned_bandwidth`, no slower than a fault allows that has to show within a `window` of seconds.
     """
     from bondgraph.runtime.diagnosis.tuning import FASTEST, tuned_bandwidth
 
-    usual = tuned_bandwidth(rate, longest)
+    usual = min(fitted, FASTEST * rate) if fitted else tuned_bandwidth(rate, longest)
     return max(usual, min(WINDOW / window, FASTEST * rate)) if window else usual
 
 

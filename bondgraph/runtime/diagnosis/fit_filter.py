@@ -48,5 +48,5 @@ def fit_by_filter(
         less = _HARDLY if any(x.much for x in best.left) else _LESS
         if not found.spread < best.spread - math.log(less):
             break
-        best = found
+        best = found._replace(faster=True)
     return best

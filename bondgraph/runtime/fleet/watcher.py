@@ -145,7 +145,7 @@ class Watcher:
             bandwidth = settings.compilation.options.bandwidth
             if bandwidth is None and settings.tuning is None:
                 asked = settings.operating, settings.mapping
-                bandwidth = usual_bandwidth(rate, source, False, *asked)
+                bandwidth = usual_bandwidth(rate, source, False, *asked, settings.fitted)
             made = self._at(rate, bandwidth)
             engine = made.engine.configured()
             parts = made.settings.parts(source, engine, made.decided(engine))

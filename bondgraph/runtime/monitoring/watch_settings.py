@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.tuning import bandwidth_for
+from bondgraph.runtime.diagnosis.tuning import FASTEST, bandwidth_for
 from bondgraph.runtime.log import LogError, Mask
 from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.clock import clock_of
@@ -90,6 +90,7 @@ class WatchSettings(NamedTuple):
     `tuning` the noise is learned; `mapping` says which column is which signal; while the machine is
     not `operating`, an expression over columns, samples do not count. A fault that has been named
     for so many seconds is `accept`ed, and the watch goes on with that.
+    Parameters were `fitted` with a filter of this bandwidth (rad/s), where it is not the usual one.
     """
 
     compilation: Compiled
@@ -98,6 +99,7 @@ class WatchSettings(NamedTuple):
     mapping: Mapping[str, Mapped] | None = None
     operating: str | None = None
     accept: float | None = None
+    fitted: float | None = None
 
     def parts(self, source: Source, engine: Engine, decision: Decision) -> Parts:
         """What a monitor of the samples of a source is made of; raises CompileError."""
@@ -133,12 +135,16 @@ def usual_bandwidth(
     grows: bool = False,
     operating: str | None = None,
     mapping: Mapping[str, Mapped] | None = None,
+    fitted: float | None = None,
 ) -> float:
     """The bandwidth (rad/s) of the filter of a watch without a tuning: see `bandwidth_for`.
 
+    Or that with which parameters were `fitted`, no faster than samples can follow.
     Of a file that is on the disk as a whole the length is known, or what it is while the machine is
     `operating`, in pieces; not of one that `grows`.
     """
+    if fitted is not None:
+        return min(fitted, FASTEST * rate)
     pieces: list[int] = []
     if operating is not None and not grows:
         on = Operating(operating, mapping, source.name)

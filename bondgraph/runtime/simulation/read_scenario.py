@@ -58,10 +58,11 @@ class Numbers(NamedTuple):
     parameters: dict[str, float]
     offsets: dict[str, float]
     tolerances: dict[str, float]
+    bandwidth: float | None = None  # of the filter (rad/s) that told these best, if not the usual
 
 
 def read_numbers(source: Source, graph: BondGraph, report: Report) -> Numbers:
-    """[parameters], [offsets] and [tolerances] of a TOML text, in SI; errors in the report.
+    """[parameters], [offsets], [tolerances] and [filter] of a TOML text, in SI, errors reported.
 
     Also for none of them.
 
@@ -124,7 +125,7 @@ class _Reader:
 
     def numbers(self, content: Mapping[str, object]) -> Numbers:
         top = Table(self.document, (), content)
-        tolerances = top.table("tolerances")
+        tolerances, bandwidth = top.table("tolerances"), top.table("filter")
         return Numbers(
             self._parameters(top.table("parameters")),
             self._offsets(top.table("offsets")),
@@ -133,6 +134,7 @@ class _Reader:
                 for key in tolerances.keys
                 if self._known(tolerances, key, key, "parameter", self.values)
             },
+            bandwidth.number("bandwidth", HERTZ, 0.0, 1.0 / RATE, RATE) or None,
         )
 
     def read(self, content: Mapping[str, object]) -> Scenario:

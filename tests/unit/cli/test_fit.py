@@ -377,6 +377,32 @@ def test_tune_goes_on_to_faster_filters_while_these_show_more(
     assert tried[-1] <= 4.0 * bandwidth_for(1000.0, 6000)
 
 
+def test_the_watch_has_the_filter_that_told_its_parameters(
+    bondgraph: Command, folder: Path
+) -> None:
+    """Where that is a faster one: so it is of the mass on a spring, not of the circuit."""
+    (folder / "v.bg").write_text(VIBRATION)
+    write_log(vibration(), folder / "v.csv")
+    for model in "cv":
+        log = "log.csv" if model == "c" else "v.csv"
+        assert bondgraph("fit", f"{model}.bg", log, "-o", f"{model}.toml").status == 0
+    found = tomllib.loads((folder / "v.toml").read_text())
+    usual, fast = bandwidth_for(610.0, 24_400), found.pop("filter")["bandwidth"]
+    assert fast == pytest.approx(16.0 * usual)
+    assert "filter" not in tomllib.loads((folder / "c.toml").read_text())
+    slow = (folder / "v.toml").read_text().replace(f"[filter]\nbandwidth = {fast!r}\n", "")
+    (folder / "slow.toml").write_text(slow)
+    took = {}
+    for numbers in ("v.toml", "slow.toml"):
+        words = ["v.bg", "v.csv", "--parameters", numbers, "--states", "states.csv"]
+        assert bondgraph("monitor", *words).status == 0
+        first = (folder / "states.csv").read_text().splitlines()[1:]
+        took[numbers] = sum(",warming up," in line for line in first)
+    ratio = took["slow.toml"] / took["v.toml"]
+    assert ratio == pytest.approx(16.0, rel=0.3)  # filters settle and rows end that much sooner
+    assert bondgraph("monitor", "v.bg", "v.csv", "v.csv", "--parameters", "v.toml").status == 0
+
+
 def test_options_take_numbers_by_name() -> None:
     c = package.compile(text=MODEL, parameters={"R": 4.0})
     assert c.options.parameters == (("R", 4.0),)
@@ -486,6 +512,8 @@ def test_tolerances_go_from_logs_that_differ_to_the_thresholds(
         ("[tolerances]\nR = 5\n", "`R` is 5."),
         ("[tolerances]\nR = -0.1\n", "`R` is -0.1."),
         ("[tolerances]\nQ = 0.1\n", "no parameter `Q`"),
+        ("[filter]\nbandwidth = -3\n", "`bandwidth` is -3."),
+        ('[filter]\nbandwidth = "3 m"\n', "bandwidth"),
     ],
 )
 def test_a_wrong_offset_or_tolerance_is_told(

@@ -11,7 +11,7 @@ from threading import Event, Thread
 import numpy as np
 import pytest
 
-from bondgraph.runtime.diagnosis.tuning import bandwidth_for
+from bondgraph.runtime.diagnosis.tuning import FASTEST, bandwidth_for
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.log_numbers import Form
@@ -70,6 +70,8 @@ def _asked(rate: float, source: Source) -> None:
     assert usual_bandwidth(rate, source, False, "a > -2") == rate / 30
     assert usual_bandwidth(rate, source, True, "pump > 5") == bandwidth_for(rate)
     assert usual_bandwidth(rate, source, False, "none > 5") == rate / 30, "told with the samples"
+    assert usual_bandwidth(rate, source, True, fitted=rate / 10) == rate / 10
+    assert usual_bandwidth(rate, source, fitted=rate) == FASTEST * rate, "samples can follow it"
 
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 def test_a_file_goes_on_from_any_place(suffix: str, tmp_path: Path) -> None:
