@@ -25,9 +25,9 @@ _LEAST = 0.5  # deviations, of averages or rows: a fault that does less is not s
 class Detection:
     """Two tests of each residual; one that has fired stays so until the fault is over.
 
-    `fired` says which have, `most` by how much of its threshold each was out at most, of the last
-    samples while none has fired; `alarms` counts them. The sample test fires after `least` samples
-    in a row. `limits` have the columns of `Limit`.
+    `scores` are sums along what faults do. `fired` says which have, `most` by how much of its
+    threshold each was out at most, of the last samples while none has fired; `alarms` counts them.
+    The sample test fires after `least` samples in a row. `limits` have the columns of `Limit`.
 
     A fault is over once it is twenty times as probable that the residuals which have fired, all
     together, are those of a healthy machine as that each goes on as it has been while it was out,
@@ -55,7 +55,7 @@ class Detection:
         """
         self._names, self._least, self._pause = tuple(residuals), least, pause
         self._cusum = Cusum(len(residuals), learns)
-        self._scores = scores or ScoreSums(np.zeros(0), len(residuals), learns)
+        self.scores = scores or ScoreSums(np.zeros(0), len(residuals), learns)
         self.fired: Mask = np.zeros(len(residuals), dtype=np.bool_)
         self.most = np.zeros(len(residuals))
         self._age = np.zeros(len(residuals))  # rows since each has fired
@@ -69,7 +69,7 @@ class Detection:
         """The residuals begin anew; what has fired still has."""
         self._streak = np.zeros(len(self._names), dtype=int)
         self._cusum.restart()
-        self._scores.restart()
+        self.scores.restart()
         # of rows of this alarm, and of their averages: 1, excess, squares
         self._sum = np.zeros((6, len(self._names)))
         self._held = np.zeros((6, len(self._names)))  # the same of rows since they are quiet
@@ -115,17 +115,17 @@ class Detection:
         if not self.alarmed:
             self._away = min(self._away + 1, self._pause + 1)
         over = self._cusum.add(row, limits)
-        over |= self._scores.add(row, limits, history, healthy=not self.alarmed)
+        over |= self.scores.add(row, limits, history, healthy=not self.alarmed)
         return np.asarray(over & ~self.fired)
 
     def onset(self, limits: Array) -> int:
         """Rows since something is wrong that a sum of rows tells now, 0 if none does."""
-        return max(self._cusum.onset(limits), self._scores.onset(limits))
+        return max(self._cusum.onset(limits), self.scores.onset(limits))
 
     @property
     def held(self) -> Array:
         """Rows since the sums of each residual were zero: a fault may act since then."""
-        return np.maximum(self._cusum.held, self._scores.held)
+        return np.maximum(self._cusum.held, self.scores.held)
 
     def latch(self, fresh: Mask) -> bool:
         """These have fired; whether they are the first of an alarm."""
@@ -196,7 +196,7 @@ class Detection:
         quiet = bool((row.valid & self.fired)[self.fired].all())
         own = self._healthy[self.fired]
         self._quiet = 0 if (seen & out).any() else self._quiet + quiet
-        high = self._cusum.high(limits) | self._scores.high(limits)
+        high = self._cusum.high(limits) | self.scores.high(limits)
         high |= np.abs(excess) > limits[:, 2]
         self._still = 0 if (row.valid & self.fired & high).any() else self._still + quiet
         enough = bool(own.sum() > _OVER)
@@ -218,7 +218,7 @@ class Detection:
         self.fired = np.zeros_like(self.fired)
         self.most[:] = 0.0
         self._cusum.restart()
-        self._scores.restart()
+        self.scores.restart()
         self._sum[:] = self._held[:] = self._healthy[:] = 0.0
         self._away, self._gone = 0, self._needed
 
@@ -228,20 +228,20 @@ class Detection:
             "fired": self.fired.tolist(),
             "most": numbers(self.most),
             **self._cusum.state(),
-            "scores": self._scores.state(),
+            "scores": self.scores.state(),
             "alarms": self.alarms,
             "pause": [self._needed, self._away, self._gone],
         }
 
     def resumed(self, state: dict[str, Any]) -> Detection:
         """The same in a state; raises KeyError, TypeError or ValueError for one of another kind."""
-        other = Detection(self._names, self._least, pause=self._pause, scores=self._scores)
+        other = Detection(self._names, self._least, pause=self._pause, scores=self.scores)
         other.fired = array(state["fired"], self.fired.shape) != 0.0
         other.most = array(state["most"], self.most.shape)
         other._age[:] = math.inf  # long ago
         other._cusum = self._cusum.resumed(state)
         if "scores" in state:  # none before 2026-11-30
-            other._scores = self._scores.resumed(state["scores"])
+            other.scores = self.scores.resumed(state["scores"])
         other.alarms = int(state["alarms"])
         other._needed, other._away, other._gone = (int(x) for x in state["pause"])
         return other

@@ -558,7 +558,8 @@ class Diagnosis:
         self._shared = other._shared
         self._tolerated = known
         self.restart()
-        self._detection = other._detection
+        scores, self._detection = self._detection.scores, other._detection
+        self._detection.scores = scores  # what is no longer zero has a direction now
         self._detection.clear()
         self._judge.succeed(other._judge)
         self._origins.resume(other._origins.state(known[self._lasting :]))

@@ -129,8 +129,9 @@ class ScoreSums:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             weight = moves / (limits[:, 6] ** 2 + model_error(value, bound))
             score, tells = weight * value, weight * moves
-            self._waits += np.where(np.isfinite(tells), [score, tells], 0.0)
-            self._tells += np.where(np.isfinite(tells), [tells, tells**2], 0.0)
+            here = np.isfinite(score) & np.isfinite(tells**2)
+            self._waits += np.where(here, [score, tells], 0.0)
+            self._tells += np.where(here, [tells, tells**2], 0.0)
             step = np.sqrt(self._tells[0] / self._tells[1])
             first = ~(self._tells[0] ** 2 > _FIRST * self._tells[1]) & ~self._tolerated[:, None]
             parameters = self._drift(history) @ np.abs(slopes) + self._unknown(slopes, history)

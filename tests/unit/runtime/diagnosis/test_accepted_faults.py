@@ -101,6 +101,18 @@ change = "+= 0.1"
 at = "300 s"
 """
 
+_LEAKS = """
+duration = "3000 s"
+inputs.Q = "7e-5*(1 + 0.3*sin(t/40))"
+sampling.rate = "1 Hz"
+sensors.p1.noise = 20
+sensors.p2.noise = 20
+[[fault]]
+of = "leak"
+change = "+= 2e-7"
+at = "1000 s"
+"""
+
 
 @cache
 def _motor() -> Compilation:
@@ -161,6 +173,22 @@ def test_a_repair_is_told_and_is_a_new_baseline(tmp_path: Path) -> None:
     assert "which is what was declared" not in said[2].message
     assert said[5].message.startswith(("R is taken for 17.5", "R is taken for 17.6"))
     assert "which is what was declared" in said[5].message
+
+
+def test_a_leak_where_none_was_declared_is_accepted(tmp_path: Path) -> None:
+    """What was nothing has a size now, and may have another one: the watch goes on with that."""
+    (tmp_path / "s.toml").write_text(_LEAKS)
+    c = bondgraph.compile(_ROOT / "models" / "two_tanks.bg", rate=1.0)
+    engine = c.engine()
+    (piece,) = on_grid(engine, c.simulate(c.scenario(tmp_path / "s.toml")).log)
+    watch = c.accepting(engine, after=100.0)
+    said = watch.update(piece.time, engine.run(piece.samples), piece.samples)
+    told = [v for v in said if v.event != "warm-up"]
+    assert [v.event for v in told].count("accepted") == 1
+    (leak,) = watch.accepted
+    assert leak.fault == "leak" and told[-1].event == "accepted", "with it the tanks are well"
+    (one, *_) = told[-1].candidates
+    assert one.size == pytest.approx(2e-7, rel=0.2)
 
 
 def test_a_faulty_command_and_an_offset_of_a_sensor_are_corrected(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ import pytest
 import bondgraph
 from bondgraph import Course, Scenario
 from bondgraph.runtime.diagnosis.cusum import Cusum
+from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.rows import Average, Row
 from bondgraph.runtime.diagnosis.score_sums import ScoreSums
@@ -166,6 +167,21 @@ def test_a_state_goes_through_json_and_sums_go_on() -> None:
         assert add(other, k) == pytest.approx(add(one, k))
     with pytest.raises((KeyError, TypeError, ValueError)):
         one.resumed({**one.state(), "learned": [[1.0]]})
+
+
+def test_a_detection_fires_by_them_before_and_behind_its_state() -> None:
+    values = 0.8 * _SWING[:300] + np.random.default_rng(2).standard_normal(300)
+    limits, fired = np.array([Limit(1.0, 1.0, 9.0, 12.0, unit=1.0)]), []
+    for again in (0, 20):  # from where it goes on with a state
+        detection = Detection(["r1"], 3, learns=False, scores=_sums(learns=False))
+        for k in range(300):
+            if again and k == again:
+                detection = detection.resumed(json.loads(json.dumps(detection.state())))
+            row = _row(values[k : k + 1], _SWING[k : k + 1])
+            if detection.row(row, limits, _NOTHING).any():
+                fired.append(k)
+                break
+    assert len(fired) == 2 and fired[0] == fired[1] > 20
 
 
 def test_where_nothing_is_known_nothing_is_added() -> None:
