@@ -23,7 +23,6 @@ from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
 _LONG = 64  # rows in which a sum shows what it sees: twice its height, at a design of one deviation
-
 _RARE = 4.0  # all sums of a residual are to come to their heights so much more seldom than a test
 _FIRST = 24  # rows that tell of a fault as much as any, from which is learned where residuals stand
 _KEPT = 1.0 - 1.0 / 1000.0  # of what is learned, with each further row
@@ -37,9 +36,9 @@ class ScoreSums:
 
     Each adds up by how much a change of the fault makes averages of rows more probable (Page, 1954)
     that are free of memory (see `Before`): the score, which is the slope by the fault times the
-    residual over its variance (Basseville and Nikiforov, 1993, section 7.2; Zhang, Basseville and
-    Benveniste, 1994). The change is such that a row which tells most of the fault is moved by one
-    deviation of its noise. Taken off is
+    residual over its variance (Basseville and Nikiforov, 1993; Zhang, Basseville and Benveniste,
+    1994). The change is such that a row which tells most of the fault is moved by one deviation of
+    its noise. Taken off is
 
     - what others do that may be off while all is well: each tolerated parameter by what is not
       known of it and by what it may drift, times the products of its slope with that of the fault.
@@ -47,7 +46,9 @@ class ScoreSums:
       fro adds up to little. The largest so far counts, so that a few motions alone tell nothing;
     - what no parameter explains, of each row;
     - what noise in the slope adds that is in the residual as well, which is no more than the change
-      over the whole of what is changed, in each row (attenuation; Fuller, 1987).
+      over the whole of what is changed, in each row (attenuation; Fuller, 1987);
+    - where a residual stands along a direction that is not `tolerated`, as no model is exact. That
+      is learned, from the first rows that tell of it and from each later one that is healthy.
 
     `sizes` are the whole of what each direction changes, (directions,). A residual has no such sums
     where its averages are not known. Other arguments are those of `Cusum`.

@@ -254,6 +254,7 @@ def digest(settings: WatchSettings, version: str) -> str:
         repr(sorted((settings.mapping or {}).items())),
         settings.operating or "",
         repr(settings.accept),
+        repr(settings.fitted),
     )
 
 

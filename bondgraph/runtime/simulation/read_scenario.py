@@ -134,7 +134,7 @@ class _Reader:
                 for key in tolerances.keys
                 if self._known(tolerances, key, key, "parameter", self.values)
             },
-            bandwidth.number("bandwidth", HERTZ, 0.0, 1.0 / RATE, RATE) or None,
+            bandwidth.number("bandwidth", PURE, 0.0, 1.0 / RATE, RATE) or None,
         )
 
     def read(self, content: Mapping[str, object]) -> Scenario:

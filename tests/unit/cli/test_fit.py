@@ -513,7 +513,7 @@ def test_tolerances_go_from_logs_that_differ_to_the_thresholds(
         ("[tolerances]\nR = -0.1\n", "`R` is -0.1."),
         ("[tolerances]\nQ = 0.1\n", "no parameter `Q`"),
         ("[filter]\nbandwidth = -3\n", "`bandwidth` is -3."),
-        ('[filter]\nbandwidth = "3 m"\n', "bandwidth"),
+        ('[filter]\nbandwidth = "3 Hz"\n', "bandwidth"),  # rad/s is what it is in
     ],
 )
 def test_a_wrong_offset_or_tolerance_is_told(
