@@ -8,6 +8,7 @@ from types import MappingProxyType
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
+from bondgraph.runtime.diagnosis.row_sums import Moves
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.since_onset import BENT, MOST, SinceOnset
 from bondgraph.runtime.log import Array, Mask
@@ -103,7 +104,7 @@ class Comparison:
         if self._beside is not None:
             self._beside.follow(fault)
 
-    def moves(self, faults: Iterable[tuple[Hypothesis, float]]) -> Array | None:
+    def moves(self, faults: Iterable[tuple[Hypothesis, float]]) -> Moves | None:
         """See `SinceOnset`."""
         return None if self._beside is None else self._beside.moves(faults)
 

@@ -54,6 +54,8 @@ class Cusum:
         self._before = Before(2, count)  # averages and bounds
         #: Of the last row: what averages are above their bound, in deviations; NaN where unknown.
         self.excess = np.full(count, math.nan)
+        #: The averages of the last row without memory, and their bounds, (2, residuals).
+        self.lasting = np.full((2, count), math.nan)
 
     @property
     def held(self) -> Array:
@@ -106,7 +108,7 @@ class Cusum:
             known = row.average.valid & (limits[:, 6] > 0.0)
             value, bound = row.average.value - limits[:, 7], row.average.bound
             own = np.where(known, [value, bound], math.nan)
-        value, bound = self._before.added(own, limits)
+        value, bound = self.lasting = self._before.added(own, limits)
         self.excess = np.sign(value) * np.maximum(np.abs(value) - bound, 0.0) / limits[:, 6]
         return np.asarray((np.stack([value, -value]) - bound) / limits[:, 6] - 0.5)
 

@@ -11,6 +11,8 @@ import numpy as np
 from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.model_error import SHARE
+from bondgraph.runtime.diagnosis.row_averages import added
+from bondgraph.runtime.diagnosis.row_sums import Moves
 from bondgraph.runtime.diagnosis.rows import PAUSE, Part, Row, away
 from bondgraph.runtime.diagnosis.score_sums import ScoreSums
 from bondgraph.runtime.log import Array, Mask
@@ -166,23 +168,23 @@ class Detection:
         self._quiet = 0
 
     def over(
-        self, row: Row, limits: Array, moves: Callable[[], Array | None] = lambda: None
+        self, row: Row, limits: Array, moves: Callable[[], Moves | None] = lambda: None
     ) -> bool:
         """Whether the fault is over, with one row more.
 
         `moves` says by how much the fault would move each residual now if it was still there, where
-        that is known (NaN where not): where it would not, a residual is quiet for no reason. It is
-        asked while one speaks for an end.
+        that is known (NaN where not), and the averages of this row and of LAGS before: where it
+        would not, a residual is quiet for no reason. It is asked while one speaks for an end.
         """
         seen = row.valid & self.fired & np.isfinite(limits[:, 0])  # others tell nothing
-        excess = np.where(seen, _excess(row.value, row, limits), 0.0)
+        excess = np.where(seen, _excess(row.value, row.bound, limits[:, 0]), 0.0)
         loud = np.abs(excess) > 1.0
         more = np.where(seen & (self._sum[0] > 0), self._more(excess, limits[:, 5]), 0.0)
         moved = moves() if (seen & (~loud | (more > 0.0))).any() else None
         if moved is not None:
-            without, tells = _without(moved, row, limits)
+            without, tells = self._without(moved, row, limits)
             seen &= tells | loud
-            more = np.where(seen, np.where(np.isnan(moved), more, without), 0.0)
+            more = np.where(seen, np.where(np.isnan(moved.last), more, without), 0.0)
         # few rows do not tell how it goes on: what was out by 5 is no more healthy at -80
         more = np.where(np.abs(excess) > limits[:, 2], -np.inf, more)
         self._healthy = np.maximum(self._healthy + more, 0.0)
@@ -201,6 +203,19 @@ class Detection:
         self._still = 0 if (row.valid & self.fired & high).any() else self._still + quiet
         enough = bool(own.sum() > _OVER)
         return (enough and self._quiet >= self._needed) or self._still >= max(self._pause, _STILL)
+
+    def _without(self, moved: Moves, row: Row, limits: Array) -> tuple[Array, Mask]:
+        """By how much more probable a row is without a fault that moves residuals so, which tell.
+
+        By its last sample, or where that cannot tell by its average beside the rows before.
+        """
+        sigma, memory, unit = limits[:, 0], limits[:, 5], limits[:, 6]
+        more, tells = _without(moved.last, row.value, row.bound, sigma)
+        whole = added(moved.means[-1:], moved.means[-2::-1, None], limits)[0]
+        average, shows = _without(whole, self._cusum.lasting[0], self._cusum.lasting[1], unit)
+        use = ~tells & shows & np.isfinite(average)
+        tells = tells | np.isnan(moved.last)
+        return np.where(use, average, more / memory), tells | use
 
     def _more(self, excess: Array, memory: Array) -> Array:
         """By how much a row makes it more probable that the fault of each residual is gone.
@@ -247,24 +262,25 @@ class Detection:
         return other
 
 
-def _excess(value: Array, row: Row, limits: Array) -> Array:
-    """By how many deviations a value is beyond what the row lets expect, on its side."""
-    beyond = np.sign(value) * np.maximum(np.abs(value) - row.bound, 0.0)
-    return np.asarray(beyond / limits[:, 0])
+def _excess(value: Array, bound: Array, sigma: Array) -> Array:
+    """By how many deviations values are beyond what is to be expected, on their side."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.sign(value) * np.maximum(np.abs(value) - bound, 0.0) / sigma)
 
 
-def _without(moved: Array, row: Row, limits: Array) -> tuple[Array, Mask]:
-    """By how much more probable a row is without a fault that moves residuals so, and which tell.
+def _without(moved: Array, value: Array, bound: Array, sigma: Array) -> tuple[Array, Mask]:
+    """By how much more probable values are without a fault that moves them so, and which tell.
 
     What is said of a move is wrong by a share of it. A fault that moves one by hardly more than is
     expected of a healthy machine tells nothing, nor does a row that is to be expected either way.
     NaN where nobody knows what the fault does, which is for others to tell.
     """
-    left, excess = _excess(row.value - moved, row, limits), _excess(row.value, row, limits)
-    variance = 1.0 + (SHARE * moved / limits[:, 0]) ** 2
-    more = (np.log(variance) + left**2 / variance - excess**2) / (2.0 * limits[:, 5])
-    clear = np.abs(moved) > row.bound + _LEAST * limits[:, 0]
-    return more, np.isnan(moved) | (clear & ((left != 0.0) | (excess != 0.0)))
+    left, excess = _excess(value - moved, bound, sigma), _excess(value, bound, sigma)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        variance = 1.0 + (SHARE * moved / sigma) ** 2
+        more = (np.log(variance) + left**2 / variance - excess**2) / 2.0
+    clear = np.abs(moved) > bound + _LEAST * sigma
+    return more, clear & ((left != 0.0) | (excess != 0.0))
 
 
 def _gone(sums: Array, excess: Array, least: float) -> tuple[Array, Array]:

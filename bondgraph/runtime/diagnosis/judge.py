@@ -22,6 +22,7 @@ from bondgraph.runtime.diagnosis.naming import (
     update,
 )
 from bondgraph.runtime.diagnosis.possible import candidates, explains, fits, possible, suspects
+from bondgraph.runtime.diagnosis.row_sums import Moves
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo, one_or_two, pairs_that_can
 from bondgraph.runtime.log import Array, Mask
@@ -78,8 +79,11 @@ class Judge:
         """The fault that explains all, if there is one."""
         return None if self._best is None else self._best.fault
 
-    def moves(self) -> Array | None:
-        """By how much what explains all, one fault or two, moves each residual now, if known."""
+    def moves(self) -> Moves | None:
+        """By how much what explains all, one fault or two, moves each residual now, if known.
+
+        The last sample of the row, and its average with those of LAGS rows before.
+        """
         if self._compared is None:
             return None
         if self._two.pairs:

@@ -48,10 +48,16 @@ class Before:
 
         NaN where one of them is not known.
         """
-        weights = limits[:, None, 8 : 8 + LAGS].T
-        found = own + np.where(weights > 0.0, weights * self._last, 0.0).sum(axis=0)
+        found = added(own, self._last, limits)
         self._last = np.concatenate([own[None], self._last[:-1]])
-        return np.asarray(found)
+        return found
+
+
+def added(own: Array, last: Array, limits: Array) -> Array:
+    """Averages (columns, residuals) with so much of the `last` before them, (LAGS, columns,
+    residuals) and the last first, as the columns of `Limit` say."""
+    weights = limits[:, None, 8 : 8 + LAGS].T
+    return np.asarray(own + np.where(weights > 0.0, weights * last, 0.0).sum(axis=0))
 
 
 def lasting(values: Array, owed: float, centred: bool, kappa: float) -> Lasting:

@@ -147,6 +147,7 @@ class SinceOnset:
         self._held: dict[int, _Held] = {}  # by the number of what is held
         self._unsaid = np.zeros((_GROWS, shape[1]), dtype=bool)
         self._slopes = np.zeros(shape)  # of the last row
+        self._means = np.zeros((LAGS + 1, *shape))  # averages of that and of the rows before
         self._others: dict[int, Array] = {}  # what residuals would be above that, if held
         self._told = np.zeros((0, len(engine.signals)))  # samples of the last row
         self._place = {k.path: at for at, k in enumerate(engine.signals)}
@@ -167,28 +168,32 @@ class SinceOnset:
         if len(self._waiting) >= _WAIT:
             self._catch_up()
 
-    def moves(self, faults: Iterable[tuple[Hypothesis, float]]) -> Array | None:
+    def moves(self, faults: Iterable[tuple[Hypothesis, float]]) -> Moves | None:
         """By how much faults of so much move each residual in the last row, NaN if not known.
 
-        None where one of them is not followed any more. Where something is held at a position that
-        it is told to be in, nothing shows it.
+        And the averages of that row and of LAGS before, which are not known of what is held. None
+        where one of them is not followed any more. Where something is held at a position that it is
+        told to be in, nothing shows it.
         """
         self._catch_up()
-        moved = np.zeros(self._slopes.shape[1])
+        moved, means = np.zeros(self._slopes.shape[1]), np.zeros(self._means[:, 0].shape)
         for hypothesis, change in faults:
             k, held = self._all.index(hypothesis), hypothesis.held
             if held is not None and held.stays:
                 if k not in self._held:
                     return None
                 moved -= self._others[k]
+                means += math.nan
             elif held is not None:
                 told = self._told[:, self._place[held.signal]]
                 moved += math.nan if (told != held.position).any() else 0.0
+                means += math.nan
             elif k in self._sized:
                 moved += self._slopes[k] * change
+                means += self._means[:, k] * change
             else:
                 return None
-        return moved
+        return Moves(moved, means)
 
     def follow(self, fault: Explained | None) -> None:
         """Once all rows that are compared are known, only what this fault shows is still wanted."""
@@ -420,6 +425,7 @@ class SinceOnset:
             for mine, its in zip(self._moves, begun.moves, strict=True):
                 mine[:, chosen] = its[:, which]
             self._slopes[chosen] = self._moves.last[-1, chosen]
+            self._means[:, chosen] = self._moves.means[-LAGS - 1 :, chosen]
 
     def _catch_up(self) -> None:
         """Run the banks over the rows that wait."""
@@ -432,6 +438,7 @@ class SinceOnset:
         last, means = (np.zeros((n + len(rows), *shape)) for n in (0, LAGS))
         last[:, self._sized], means[LAGS:, self._sized] = self._bank.rows(samples, ends, lengths)
         self._slopes, self._told = last[-1].copy(), rows[-1][0].samples
+        self._means = np.concatenate([self._means, means[LAGS:]])[-LAGS - 1 :].copy()
         left = MOST - len(self._rows)
         for k, own in self._held.items():
             moved, total, sound = own.beside.rows(samples, ends, lengths)

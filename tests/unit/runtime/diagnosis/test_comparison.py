@@ -15,6 +15,7 @@ from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
 from bondgraph.runtime.diagnosis.isolation import Explained
+from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.monitoring.engine import Engine
@@ -311,6 +312,9 @@ def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> N
     slopes = Bank(engine.configured(), [found["J"].hypothesis], {"J": _J}).run(
         _samples(engine, 640 * 20), range(19, 640 * 20, 20)
     )[:, 0, 0]
+    means = Bank(engine.configured(), [found["J"].hypothesis], {"J": _J}).rows(
+        _samples(engine, 640 * 20), range(19, 640 * 20, 20), [20] * 640
+    )[1][:, 0, 0] * found["J"].change
     moves = []
     for k in range(604, 640):
         part = _samples(engine, 640 * 20)[20 * k : 20 * k + 20]
@@ -319,7 +323,8 @@ def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> N
         compared.step(row, np.array([Limit(1.0, 1.0, 4.0, 9.0)]))
         moved = compared.moves([(found["J"].hypothesis, found["J"].change)])
         assert moved is not None
-        moves.append(float(moved[0]))
+        moves.append(float(moved.last[0]))
+        assert moved.means[:, 0] == pytest.approx(means[k - LAGS : k + 1], rel=1e-9)
         assert compared.moves([(found["w0"].hypothesis, 1.0)]) is None
         assert compared.explained(history, faults) == list(found.values())
     assert moves == pytest.approx((slopes[604:] * found["J"].change).tolist(), rel=1e-9)

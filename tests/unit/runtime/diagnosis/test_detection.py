@@ -10,7 +10,9 @@ import pytest
 
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.history import History
-from bondgraph.runtime.diagnosis.rows import Part, Row, pause
+from bondgraph.runtime.diagnosis.row_averages import LAGS
+from bondgraph.runtime.diagnosis.row_sums import Moves
+from bondgraph.runtime.diagnosis.rows import Average, Part, Row, pause
 from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.log import Array
 
@@ -79,10 +81,15 @@ def _alarm(detection: Detection, size: float, rows: int = 6) -> None:
     assert not any(detection.over(_row(size, size), _LIMITS) for _ in range(rows))
 
 
+def _moves(last: Array | None) -> Moves | None:
+    """What a fault does to last samples; nothing is known of averages."""
+    return None if last is None else Moves(last, np.full((LAGS + 1, 2), math.nan))
+
+
 def _quiet(detection: Detection, value: float = 0.0, moves: Array | None = None) -> int:
     """Rows after which it is over."""
     for rows in range(1, 200):
-        if detection.over(_row(value, value), _LIMITS, lambda: moves):
+        if detection.over(_row(value, value), _LIMITS, lambda: _moves(moves)):
             detection.clear()
             assert not detection.alarmed and detection.levels() == {}
             return rows
@@ -116,6 +123,26 @@ def test_a_residual_that_swings_is_not_over_while_it_is_out() -> None:
     assert _quiet(detection) <= 3
 
 
+@pytest.mark.parametrize("known", [True, False])
+def test_where_a_sample_tells_nothing_of_an_end_averages_do(known: bool) -> None:
+    """A fault moves a residual by five, where a sample of a healthy machine may be off by twenty,
+    and an average by a fifth; it is gone."""
+    limits = np.array([Limit(1.0, 10.0, 4.0, 3.0, 0.0, 1.0, unit=0.1)] * 2)
+    detection, five = Detection(["r1", "r2"], 3, pause=500), np.full(2, 5.0)
+    detection.latch(np.array([True, True]))
+    nothing, valid = np.zeros(2), np.ones(2, dtype=bool)
+    mean = Average(nothing, valid, nothing + 0.2, nothing, np.zeros((0, 2)))
+    row = _row(0.0, 0.0)._replace(bound=nothing + 20.0, average=mean)
+    moved = Moves(five, np.tile(five if known else five + math.nan, (LAGS + 1, 1)))
+    over = []
+    for _ in range(20):
+        detection.row(row, limits, _NEW)
+        over.append(detection.over(row, limits, lambda: moved))
+    assert any(over) == known
+    if known:
+        assert over.index(True) == 1
+
+
 def test_what_comes_back_soon_has_to_be_away_for_longer_the_next_time() -> None:
     detection = Detection(["r1", "r2"], 3)
     needed = []
@@ -147,7 +174,8 @@ def test_what_is_quiet_for_a_stroke_is_not_over_behind_a_fast_filter() -> None:
     """Rows of 0.02 s: after 32 of them an alarm of a friction was over in each dwell of an axis."""
     detection = Detection(["r1", "r2"], 3, pause=pause(0.02))
     _alarm(detection, 20.0)
-    over = [detection.over(_row(0.0, 0.0), _LIMITS, lambda: np.zeros(2)) for _ in range(500)]
+    over = [detection.over(_row(0.0, 0.0), _LIMITS, lambda: _moves(np.zeros(2)))
+            for _ in range(500)]  # fmt: skip
     assert over.index(True) == 499
 
 
@@ -156,10 +184,10 @@ def test_rows_in_which_the_fault_would_not_show_do_not_tell_that_it_is_over() ->
     _alarm(detection, 20.0)
     for least in (0.0, 0.4):  # nothing, and hardly more than what gives no alarm
         unmoved = np.array([least, -least])
-        assert not any(detection.over(_row(0.0, 0.0), _LIMITS, lambda u=unmoved: u)
+        assert not any(detection.over(_row(0.0, 0.0), _LIMITS, lambda u=unmoved: _moves(u))
                        for _ in range(10))  # fmt: skip
     moved = np.array([20.0, 20.0])
-    rows = [detection.over(_row(0.0, 0.0), _LIMITS, lambda: moved) for _ in range(2)]
+    rows = [detection.over(_row(0.0, 0.0), _LIMITS, lambda: _moves(moved)) for _ in range(2)]
     assert rows[-1]
     other = Detection(["r1", "r2"], 3)
     _alarm(other, 20.0)
@@ -174,7 +202,7 @@ def test_what_the_fault_makes_of_a_row_is_no_end_of_it() -> None:
         fault = np.array([now, now])
         for _ in range(100):
             asked.row(_row(now, now), _LIMITS, _NEW)
-            assert not asked.over(_row(now, now), _LIMITS, lambda f=fault: f)
+            assert not asked.over(_row(now, now), _LIMITS, lambda f=fault: _moves(f))
         assert _quiet(asked, moves=fault) <= 4, "and without it, it is over"
     blind = Detection(["r1", "r2"], 3)
     _alarm(blind, 20.0)
@@ -197,7 +225,7 @@ def test_what_no_alarm_would_be_given_for_does_not_keep_one_for_ever(
         rows, noise = rows + 1, float(draw.standard_normal())
         detection.row(_row(noise, noise), _LIMITS, _NEW)
         fault = np.array([noise, noise])
-        over = detection.over(_row(noise, noise), _LIMITS, lambda f=fault: f)
+        over = detection.over(_row(noise, noise), _LIMITS, lambda f=fault: _moves(f))
     assert least <= rows <= least + 40
 
 
