@@ -26,8 +26,6 @@ _LONG = 64  # rows in which a sum shows what it sees: twice its height, at a des
 _RARE = 4.0  # all sums of a residual are to come to their heights so much more seldom than a test
 _FIRST = 24  # rows that tell of a fault as much as any, from which is learned where residuals stand
 _KEPT = 1.0 - 1.0 / 1000.0  # of what is learned, with each further row
-_NEAR = 0.5  # of the room of a sum, and what it is at least: more may be a fault
-_FEW = 2.0
 _ALONG = Limit._fields.index("along")
 
 
@@ -96,9 +94,9 @@ class ScoreSums:
 
     @property
     def held(self) -> Array:
-        """Rows since all sums of a residual were zero that may be those of a fault."""
-        near = self.sums > np.maximum(_NEAR * self._room, _FEW)
-        return np.asarray(np.where(near, self._since, 0.0).max(axis=(0, 1), initial=0.0))
+        """Rows since all sums of a residual were zero that tell of more than a healthy machine."""
+        held = np.where(self.beyond > 0.0, self._since, 0.0)
+        return np.asarray(held.max(axis=(0, 1), initial=0.0))
 
     def onset(self, limits: Array) -> int:
         """Rows since a sum was zero that is too high now: since then something is wrong."""
