@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from bondgraph.backends import decision, listing
 from bondgraph.backends.blocks import Block
-from bondgraph.backends.c import block_about, block_text
+from bondgraph.backends.c_code import block_about, block_text
 from bondgraph.backends.decision import UNTUNED, Tuned
 from bondgraph.backends.facts import (
     ABI,
