@@ -15,8 +15,8 @@ Everything here is loaded when it is asked for.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from bondgraph.backends.write import ForeignFiles
+    from bondgraph.compilation import Compilation, compile
     from bondgraph.compile_options import Options
-    from bondgraph.pipeline import Compilation, compile
     from bondgraph.runtime.c_library import NativeError
     from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
     from bondgraph.runtime.fleet.monitor_logs import Fleet, monitor
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 _FROM = {
     "backends.write": ("ForeignFiles",),
     "compile_options": ("Options",),
-    "pipeline": ("Compilation", "compile"),
+    "compilation": ("Compilation", "compile"),
     "runtime.c_library": ("NativeError",),
     "runtime.diagnosis.tuning": ("Limit", "Tuning"),
     "runtime.fleet.monitor_logs": ("Fleet", "monitor"),

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from bondgraph.cli.result import result
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.source import Source
 from tests.random.run import of_seed as graph_of

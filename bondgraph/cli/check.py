@@ -16,7 +16,7 @@ from bondgraph.text.numerals import plural
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from bondgraph.pipeline import Compilation
+    from bondgraph.compilation import Compilation
 
 
 def arguments(parser: ArgumentParser) -> None:

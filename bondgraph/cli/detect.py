@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Iterator
 
+    from bondgraph.compilation import Compilation
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import Form
-    from bondgraph.pipeline import Compilation
     from bondgraph.runtime.separation import Separation
     from bondgraph.runtime.smallest import Answers, Detection, Order, Situation, Smallest
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Iterable, Mapping
 
-    from bondgraph.pipeline import Compilation
+    from bondgraph.compilation import Compilation
     from bondgraph.runtime.diagnosis.fitted import Fitted, Fitting, Left, Start
 
 _LATE = 3.0  # standard errors above which it is told that a signal comes early or late

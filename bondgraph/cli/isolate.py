@@ -15,8 +15,8 @@ from bondgraph.text.numerals import plural
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from bondgraph.compilation import Compilation
     from bondgraph.ir.structural_model import StructuralModel
-    from bondgraph.pipeline import Compilation
     from bondgraph.structural.analyse import Analysis, Chosen
 
 LIMIT = 10_000

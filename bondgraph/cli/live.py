@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable
 
+    from bondgraph.compilation import Compilation
     from bondgraph.ir.graph import BondGraph
-    from bondgraph.pipeline import Compilation
     from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.live.session import Session
     from bondgraph.runtime.live.setup import Machine, Setup

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable, Iterator
 
-    from bondgraph.pipeline import Compilation
+    from bondgraph.compilation import Compilation
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
     from bondgraph.runtime.monitoring.mqtt_client import Address, Publisher

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.equation_system import Equation
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.nodes import occurs
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.notation.dump_stages import equation_name
-from bondgraph.pipeline import Compilation
 from bondgraph.structural.matching import decompose
 from bondgraph.text.numerals import joined, plural
 

@@ -6,13 +6,13 @@ from collections.abc import Iterable
 
 from bondgraph.algebra.present import tidy
 from bondgraph.cli.reasons import message, reason
+from bondgraph.compilation import Compilation
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
 from bondgraph.ir.signature_matrix import Detectability, ModeSignatures
 from bondgraph.notation.latex import latex, lettered
 from bondgraph.notation.parsable import Names, parsable
 from bondgraph.notation.typeset import Letters
-from bondgraph.pipeline import Compilation
 
 
 def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:

@@ -13,8 +13,8 @@ from bondgraph.text.numerals import plural
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from bondgraph.compilation import Compilation
     from bondgraph.ir.structural_model import StructuralModel
-    from bondgraph.pipeline import Compilation
     from bondgraph.structural.placement import Candidate, Placement, Placing
     from bondgraph.structural.structural_isolability import Isolability
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable
 
-    from bondgraph.pipeline import Compilation
+    from bondgraph.compilation import Compilation
     from bondgraph.runtime.log import Log
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario

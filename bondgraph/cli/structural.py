@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from bondgraph.text.diagnostic import CompileError, Report
 
 if TYPE_CHECKING:
+    from bondgraph.compilation import Compilation
     from bondgraph.ir.structural_model import StructuralModel
-    from bondgraph.pipeline import Compilation
     from bondgraph.text.diagnostic import Diagnostic
 
 MODEL_HELP = "file.bg, file.bg:Name, or an incidence table (.csv, .tsv)"

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from bondgraph.cli.reasons import message, missing, reasons, told_apart_at_best
 from bondgraph.cli.stuck import overall
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import topological
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.notation.dump_stages import residual_origin
-from bondgraph.pipeline import Compilation
 from bondgraph.text.moment import often
 from bondgraph.text.numerals import joined, plural
 from bondgraph.views import Relation

@@ -13,7 +13,7 @@ from bondgraph.text.numerals import readable
 from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
-    from bondgraph.pipeline import Compilation
+    from bondgraph.compilation import Compilation
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
 

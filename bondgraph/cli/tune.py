@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable, Iterable
 
-    from bondgraph.pipeline import Compilation
+    from bondgraph.compilation import Compilation
     from bondgraph.runtime.diagnosis.calibration import Tuned
     from bondgraph.runtime.diagnosis.shown_sizes import Shown
     from bondgraph.runtime.diagnosis.tuning import Tuning

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from os.path import realpath
 
+from bondgraph.compilation import Compilation
 from bondgraph.editor.occurrences import FileNames, Symbol
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.graph import Bond, BondGraph, Input, Let, Node, Sensor, Value
 from bondgraph.ir.unit import Dimension
 from bondgraph.library.units import describe, parse_unit
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 

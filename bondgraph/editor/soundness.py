@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
 from bondgraph.frontend.read import decode
 from bondgraph.passes.elaboration.files import unused
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError, Diagnostic, Report
 from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
@@ -72,9 +72,8 @@ class Edited(Compilation):
         super().__init__(source, model, options)
         vars(self).update(texts=texts)
 
-    def of(self, model: str) -> Edited:
-        """Another model of the same file, with the same texts."""
-        return self._sharing(Edited(self.source, model, self.options, self.texts))
+    def _with(self, model: str | None, options: Options) -> Edited:
+        return Edited(self.source, model, options, self.texts)
 
     def _read(self, path: str, origin: Span) -> Source | None:
         text = self.texts.get(os.path.realpath(path))

@@ -6,12 +6,12 @@ import os
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 
+from bondgraph.compilation import Compilation
 from bondgraph.editor.flat_facts import FlatFacts
 from bondgraph.editor.occurrences import Declaration, FileNames, Occurrence, Symbol
 from bondgraph.editor.soundness import Soundness, check_text
 from bondgraph.frontend.parser import parse
 from bondgraph.frontend.read import decode, read
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source
 

@@ -256,7 +256,8 @@ def documented(name: str) -> list[str]:
     *_, last = name.split(".")
     if last[0].islower():
         return [f".. autofunction:: {name}"]
-    return [f".. autoclass:: {name}", "   :members:"]
+    kept = ["   :inherited-members:"] if name == "bondgraph.Compilation" else []  # the stages
+    return [f".. autoclass:: {name}", "   :members:", *kept]
 
 
 def diagnostics() -> str:

@@ -13,7 +13,7 @@ import numpy as np
 
 import bondgraph
 from bondgraph.backends.write import write
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.monitoring.clock import clock_of
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.native import NativeError

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.simulation.scenario import Course, Sampling, Scenario
 from tests.bench.whole import processor
 

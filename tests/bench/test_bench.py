@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.source import Source
 from tests.bench import (
     alarm,

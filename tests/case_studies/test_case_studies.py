@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 import sympy as sp
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.signature_matrix import SignatureMatrix
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 from tests.case_studies.by_hand import CASES, DRIVE_TRAIN, Case
 from tests.unit.passes.relations import integral, is_multiple, t

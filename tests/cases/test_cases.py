@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from bondgraph.cli.dump import text_of
+from bondgraph.compilation import compile
 from bondgraph.frontend.formatter import format_text
-from bondgraph.pipeline import compile
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source
 from tests.promises import broken_stages

@@ -9,7 +9,7 @@ import pytest
 
 import bondgraph
 from bondgraph.cli.summary import report
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.source import Source
 from tests.docs.pages import FENCE, PAGES, ROOT, anchors, named, prose, target
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 from tests.docs.executed import Wrong, matches, renewed, run, steps
 from tests.docs.pages import PAGES, ROOT, named

@@ -9,7 +9,7 @@ from typing import Any
 
 import bondgraph
 from bondgraph.cli.result import result
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from tests.adversary.plant import HERE
 
 ROOT = Path(__file__).resolve().parents[2]

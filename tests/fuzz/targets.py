@@ -19,11 +19,11 @@ from typing import Any
 import numpy as np
 
 from bondgraph.cli.console import _some
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
 from bondgraph.frontend.incidence import read_table
 from bondgraph.frontend.read import decode
 from bondgraph.passes.elaboration import instantiate
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.tuning import Tuning
 from bondgraph.runtime.live.follower import Follower

@@ -11,7 +11,7 @@ from bondgraph.backends.forty_digits import Evaluation, value
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.ir.program import Program, Ref
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 
 
 class Terms:

@@ -11,7 +11,7 @@ from bondgraph.backends.identifiers import snake
 from bondgraph.backends.members import Member, samples
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.diagnostic import CompileError
 from tests.conftest import ROOT
 from tests.unit.backends.compilers import compiler, run

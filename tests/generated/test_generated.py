@@ -17,7 +17,7 @@ from bondgraph.backends.write import COSTS, MANIFEST
 from bondgraph.backends.emit import EXTRAS
 from bondgraph.backends.identifiers import snake
 from bondgraph.ir.artifact import Artifact
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.diagnostic import CompileError
 from tests.generated.scale import waves, worst
 from tests.unit.backends.compilers import (

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.batch import Lanes
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.separation import separation

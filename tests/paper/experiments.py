@@ -13,7 +13,7 @@ import numpy as np
 import bondgraph
 from bondgraph.backends.report.episode import Episode
 from bondgraph.cli.reporting.scenarios import played
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.simulation.scenario import Fault, Scenario
 from tests import measured
 

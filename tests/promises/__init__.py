@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.diagnostic import CompileError
 from tests.promises import elimination, graphs, programs
 from tests.promises.check import CHECKS

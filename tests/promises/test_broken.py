@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 import pytest
 
+from bondgraph.compilation import Compilation, compile
 from bondgraph.ir.expr import Kind
 from bondgraph.ir.program import Assign, Branch, PolynomialTape, Ref
-from bondgraph.pipeline import Compilation, compile
 from bondgraph.text.source import Source
 from tests.conftest import ROOT
 from tests.promises import broken

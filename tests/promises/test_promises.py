@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bondgraph.pipeline import Compilation, compile
+from bondgraph.compilation import Compilation, compile
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.source import Source
 from tests.conftest import ROOT

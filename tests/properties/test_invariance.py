@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.frontend.parser import parse
 from bondgraph.frontend.read import read
 from bondgraph.ir.syntax import File, Node, Ref
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 from tests.properties import rewrite

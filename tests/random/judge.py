@@ -7,7 +7,7 @@ import traceback
 from pathlib import Path
 from typing import NamedTuple
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.diagnostic import CompileError, Diagnostic
 from bondgraph.text.source import Source
 from tests.random.graphs import Graph

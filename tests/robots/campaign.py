@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.calibration import Tuned, tune
 from bondgraph.runtime.diagnosis.tuning import Tuning
 from bondgraph.runtime.log import Log

@@ -8,8 +8,8 @@ from textwrap import dedent
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.simulation.read_scenario import read_scenario
 from bondgraph.runtime.simulation.run import Run
 from bondgraph.runtime.simulation.scenario import Scenario

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.text.source import Source

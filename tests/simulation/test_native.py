@@ -11,8 +11,8 @@ import pytest
 
 import bondgraph
 from bondgraph.backends.rates import rate_file, rate_language
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation import native_machine
 from bondgraph.runtime.simulation.integrate import SimulationError

@@ -11,7 +11,7 @@ import numpy.typing as npt
 import pytest
 from scipy.stats import gamma
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.monitoring.engine import Batch
 from bondgraph.text.source import Source
 from tests.switched.plants import BOOST, BUCK, CAPACITORS, CARRIAGE, COIL, Log, log

@@ -209,7 +209,7 @@ def test_an_unknown_name_and_a_failing_property_keep_their_own_words(
 def test_all_that_is_offered_is_there_and_light_until_it_is_used() -> None:
     program = (
         "import sys, bondgraph\n"
-        "heavy = {'numpy', 'sympy', 'scipy', 'networkx', 'bondgraph.pipeline'}\n"
+        "heavy = {'numpy', 'sympy', 'scipy', 'networkx', 'bondgraph.compilation'}\n"
         "print(sorted(heavy & set(sys.modules)))\n"
         "print(all(hasattr(bondgraph, name) for name in bondgraph.__all__))\n"
     )

@@ -20,11 +20,11 @@ from bondgraph.cli.reasons import message, missing, reasons
 from bondgraph.cli.reporting.relations import relations
 from bondgraph.cli.reporting.seen import Assumed, seen
 from bondgraph.cli.stuck import stuck_switches
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import symbols
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.signature_matrix import ModeSignature, SignatureMatrix
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError, Diagnostic
 from bondgraph.text.moment import often
 from bondgraph.text.numerals import plural, readable

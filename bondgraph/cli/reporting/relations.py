@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping
 from bondgraph.algebra.present import parts
 from bondgraph.backends.report.content import DerivedStep, PathLine, RelationPart
 from bondgraph.backends.report.formulas import Typesetter, operations
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Program
 from bondgraph.notation.derivation_words import ending, headline, lines, remark, title
 from bondgraph.notation.dump_stages import place, residual_origin
 from bondgraph.notation.line import show
 from bondgraph.passes.relation.path import path
-from bondgraph.pipeline import Compilation
 from bondgraph.text.moment import often
 from bondgraph.text.numerals import plural
 from bondgraph.views import Relation

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from bondgraph.backends.report.formulas import Typesetter
+    from bondgraph.compilation import Compilation
     from bondgraph.ir.program import Program
-    from bondgraph.pipeline import Compilation
     from bondgraph.runtime.log import Array
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.smallest import Answers, Detection, Situation, Smallest

@@ -22,14 +22,14 @@ from bondgraph.runtime.diagnosis.healthy import (
 )
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
-from bondgraph.runtime.diagnosis.isolation import Explained, inverse
+from bondgraph.runtime.diagnosis.isolation import Explained
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
 from bondgraph.runtime.diagnosis.noise import COVERED
+from bondgraph.runtime.diagnosis.onset import onset
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
 from bondgraph.runtime.diagnosis.possible import loud
-from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.rows import (
     Average,
     Part,
@@ -59,7 +59,6 @@ from bondgraph.text.moment import moment
 from bondgraph.text.numerals import listed
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
-_ODD = 3.0  # standard deviations that a residual has to be away from what is expected
 
 
 class Diagnosis:
@@ -429,7 +428,7 @@ class Diagnosis:
             if self._learning is not None:
                 self._learning.alarm(self._detection.held)
             self._drifted(self._detection.fired)
-            since = self._onset(time, piece)
+            since = self._begin(time, piece)
             self._judge.latch(since)
             message = f"{self._status.names(fresh)} above what a healthy machine does since"
             message += f" {moment(since)}"
@@ -445,49 +444,12 @@ class Diagnosis:
             message += "; looking for the fault"
             out.append(Verdict("fault", time, since, levels, message=message))
 
-    def _onset(self, time: float, piece: list[Array]) -> float:
-        """Begin to compare faults at the last sample that was as it had been before."""
-        past = usual(self._past)
-        start = len(past) - 1
-        while start > 0 and self._odd(past[start]):
-            start -= 1
-        if not piece:  # a sum of rows tells when it was zero
-            start = min(start, len(past) - 1 - self._detection.onset(self._limits))
-        begin = max(0, start)  # its samples are still healthy ones, the fault begins behind them
-        chosen = past[begin + 1 :]
-        limits = self._limits
-        if not past:
-            none = np.empty((0, len(self._engine.signals)))
-            self._judge.compare(self._before, none, 0, [], limits, self._tolerated, self._history)
-            return time
-        engine, piece = (chosen[0].engine, [chosen[0].samples]) if chosen else (self._before, piece)
-        last = past[begin]
-        noise = inverse(self._weight(last))
-        samples = np.concatenate([last.samples[:0], *piece])
-        fired = self._detection.fired
-        mean = self._limits[:, 4]
-        count = samples_before(engine, samples, mean, self._history, last.slopes, noise, fired)
-        # what is read late may have gone wrong before it showed; and what a machine would do that
-        # has always been wrong is known once its filters have settled
-        late = self._engine.lags[-1] + self._engine.warm_up
-        late = math.ceil(late / self._engine.sample_time)
-        first = begin
-        while first > 0 and (
-            begin + 1 - first < LAGS or sum(len(row.samples) for row in past[first:begin]) < late
-        ):
-            first -= 1
-        before = [row.samples for row in past[first : begin + 1]]
-        healthy = np.concatenate([*before, samples[:count]])
-        self._judge.compare(
-            past[first].engine, healthy, count, chosen, limits, self._tolerated, self._history,
-            past[first : begin + 1],
-        )  # fmt: skip
-        return last.time + count * self._engine.sample_time
-
-    def _odd(self, row: Row) -> bool:
-        """Whether a residual that has fired is not what the history lets expect."""
-        off = odd(self._history, row.value, row.slopes, inverse(self._weight(row)))
-        return bool((off & self._detection.fired).any())
+    def _begin(self, time: float, piece: list[Array]) -> float:
+        """Begin to compare faults behind the onset, the time of which is returned."""
+        began = onset(time, self._before, piece, usual(self._past), self._detection, self._limits,
+                      self._history)  # fmt: skip
+        self._judge.compare(began, self._limits, self._tolerated, self._history)
+        return began.time
 
     # ------------------------------------------------------------------ judgement
 
@@ -617,31 +579,3 @@ class Diagnosis:
             self._limits = levels
         else:
             self._limits[:, 4] = levels[:, 4]
-
-
-def odd(history: History, value: Array, slopes: Array, noise: Array) -> Mask:
-    """Which residuals are not what the history lets expect; `noise` are their variances."""
-    expected, variance = history.expected(slopes)
-    return np.asarray(np.abs(value - expected) > _ODD * np.sqrt(variance + noise))
-
-
-def samples_before(
-    engine: Engine,
-    samples: Array,
-    mean: Array,
-    history: History,
-    slopes: Array,
-    noise: Array,
-    fired: Mask,
-) -> int:
-    """How many of the samples come before the fault; `engine` stands before them.
-
-    Residuals stand at their `mean` while all is well. `slopes` of the tolerated parameters are
-    those of the last healthy row, (tolerated, residuals).
-    """
-    if not len(samples):
-        return 0
-    found = copied(engine).run(samples)
-    away = odd(history, found.value - mean, slopes, noise) & found.valid & fired
-    usual = np.flatnonzero(~away.any(axis=1))
-    return min(int(usual[-1]) + 1, len(samples) - 1) if len(usual) else 0

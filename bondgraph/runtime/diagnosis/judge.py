@@ -21,9 +21,10 @@ from bondgraph.runtime.diagnosis.naming import (
     news,
     update,
 )
+from bondgraph.runtime.diagnosis.onset import Onset, onset_again
 from bondgraph.runtime.diagnosis.possible import candidates, explains, fits, possible, suspects
 from bondgraph.runtime.diagnosis.row_sums import Moves
-from bondgraph.runtime.diagnosis.rows import Row, weight
+from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo, one_or_two, pairs_that_can
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
@@ -137,20 +138,9 @@ class Judge:
         self._compared, self.latched = None, None
 
     def compare(
-        self,
-        engine: Engine,
-        healthy: Array,
-        own: int,
-        rows: Sequence[Row],
-        limits: Array,
-        tolerated: Sequence[Hypothesis],
-        history: History,
-        before: Sequence[Row] = (),
+        self, began: Onset, limits: Array, tolerated: Sequence[Hypothesis], history: History
     ) -> None:
-        """Begin to compare faults behind the `healthy` samples, `own` of these of the first row.
-
-        The others are those of the rows `before`, if these are known.
-        """
+        """Begin to compare faults behind their onset."""
         model = self._model
         self._after = self._told = self._due = 0
         self._next = _JUDGE
@@ -159,13 +149,14 @@ class Judge:
         found = hypotheses(
             self._engine, model.faults, model.units, sizes, model.switches, in_time=True
         )
-        samples = np.concatenate([healthy, *[row.samples for row in rows]])
-        found = sized(engine, found, model.nominal, samples)
+        samples = np.concatenate([began.healthy, *[row.samples for row in began.rows]])
+        found = sized(began.engine, found, model.nominal, samples)
         machine = as_it_is(tolerated, model.nominal, history)
         self._compared = Comparison(
-            engine, healthy, own, found, model.nominal, tolerated, machine, model.dynamic, before
-        )
-        for row in rows:
+            began.engine, began.healthy, began.own, found, model.nominal, tolerated, machine,
+            model.dynamic, began.before,
+        )  # fmt: skip
+        for row in began.rows:
             self._compared.step(row, limits)
 
     def step(
@@ -177,35 +168,17 @@ class Judge:
         history: History,
     ) -> bool:
         """One more row, the last of the `past`; False while there is none to begin with."""
-        if self._compared is None:
-            self._begin_again(row, past, limits, tolerated, history)
-        if self._compared is None:
-            return False
+        if self._compared is None:  # after a restart
+            assert self.latched is not None
+            began = onset_again(row.time, self.latched.since, limits, past)
+            if began is None:
+                return False
+            self.compare(began, limits, tolerated, history)
+        assert self._compared is not None
         if not self._compared.has(row):
             self._compared.step(row, limits)
         self._after += 1
         return True
-
-    def _begin_again(
-        self,
-        row: Row,
-        past: Sequence[Row],
-        limits: Array,
-        tolerated: Sequence[Hypothesis],
-        history: History,
-    ) -> None:
-        """After a restart: compare faults from the onset on, or from where there are residuals."""
-        assert self.latched is not None
-        since = self.latched.since
-        anew = row.time <= since  # the clock has begun again
-        rows = [r for r in past if weight(r, limits[:, 0]).any() and (anew or r.time > since)]
-        if not rows:
-            return
-        first, samples = rows[0], len(rows[0].samples)
-        ago = math.ceil((first.time - since) / self._engine.sample_time)
-        healthy = 0 if anew or ago >= samples else samples - max(1, ago)
-        before = first.samples[:healthy]
-        self.compare(first.engine, before, healthy, rows, limits, tolerated, history)
 
     def verdict(
         self, time: float, levels: Mapping[str, float], noise: Mapping[str, float], history: History

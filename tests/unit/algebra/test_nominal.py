@@ -8,8 +8,8 @@ from fractions import Fraction
 import pytest
 
 from bondgraph.algebra.nominal import Nominal, defined
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import Expr, Kind, Pool
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 

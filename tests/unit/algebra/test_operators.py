@@ -9,9 +9,9 @@ from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.normalise import normalise
 from bondgraph.algebra.operators import Operators
 from bondgraph.algebra.zero import is_zero
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.passes.elimination.tearing import Loops
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 # The rotor's flux turns with the shaft: its rate is known by the stator, the flux itself is not.

@@ -8,11 +8,11 @@ import pytest
 
 from bondgraph.algebra.present import Parts, closed_form, parts, shared
 from bondgraph.backends.report.formulas import Typesetter, readable
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import Expr, Kind, Pool, Root
 from bondgraph.notation.formula import Reader
 from bondgraph.notation.lettering import letters
 from bondgraph.notation.line import Line
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 # With the flow f and s = k*f + a: 0 = F - tanh(s)*sin(s) - k*D(f), where s occurs twice.

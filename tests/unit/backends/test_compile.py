@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.source import Source
 from tests.unit.backends import programs
 from tests.unit.backends.compilers import (

@@ -16,8 +16,8 @@ import bondgraph
 from bondgraph import Fault
 from bondgraph.backends.decision import ANY, NO_SIZE, fault_classes
 from bondgraph.backends.write import write
+from bondgraph.compilation import Compilation
 from bondgraph.ir.residual_limit import ResidualLimit, ShownSize
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.cusum import on_board
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning

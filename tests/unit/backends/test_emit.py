@@ -11,8 +11,8 @@ import pytest
 from bondgraph.backends.emit import EXTRAS, emit
 from bondgraph.backends.target import load, targets
 from bondgraph.backends.templates import codegen
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Field, ResidualInfo
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.source import Source
 from tests.unit.backends import programs

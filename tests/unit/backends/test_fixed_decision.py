@@ -22,9 +22,9 @@ from bondgraph.backends.decision import fault_classes
 from bondgraph.backends.fixed_decision import HIGHEST, ROUGH, whole_limit
 from bondgraph.backends.templates import codegen, fill
 from bondgraph.cli.main import main
+from bondgraph.compilation import Compilation
 from bondgraph.ir.fixed_program import SUM_BITS, FixedProgram, WholeLimit
 from bondgraph.ir.residual_limit import ResidualLimit, ShownSize
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
 from bondgraph.text.diagnostic import CompileError

@@ -15,9 +15,9 @@ from bondgraph.algebra import cubic_tanh
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.parts import begun
 from bondgraph.cli.main import main
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import WrongOption
 from bondgraph.ir.fixed_program import FixedProgram
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from tests.sampled import Sampled
 from tests.unit.backends.compilers import WARNINGS, compiler, run

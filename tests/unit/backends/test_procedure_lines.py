@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Branch
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 #: What is above the root is there twice, so that it gets a name; below one it has no value.

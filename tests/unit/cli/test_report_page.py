@@ -13,7 +13,7 @@ from bondgraph.backends.report.page import page
 from bondgraph.cli.detect import situation_of
 from bondgraph.cli.reporting.collect import collect
 from bondgraph.cli.reporting.seen import assumed
-from bondgraph.pipeline import compile
+from bondgraph.compilation import compile
 from tests.browser import PATH, Tab, browser
 from tests.unit.backends.episodes import episode
 

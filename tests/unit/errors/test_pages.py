@@ -15,13 +15,13 @@ import pytest
 import bondgraph
 from bondgraph import errors
 from bondgraph.cli.main import main
+from bondgraph.compilation import Compilation
+from bondgraph.compilation import compile as open_model
 from bondgraph.frontend.incidence import read_table
 from bondgraph.passes.analysis.signatures import signatures
 from bondgraph.passes.elimination import chaining as chain
 from bondgraph.passes.elimination import shortfall
 from bondgraph.passes.relation.form import relations
-from bondgraph.pipeline import Compilation
-from bondgraph.pipeline import compile as open_model
 from bondgraph.text.diagnostic import CompileError, Diagnostic, Report, Severity
 from bondgraph.text.limits import MODEL_BYTES
 from bondgraph.text.source import Source

@@ -1,8 +1,8 @@
 """Bond graphs that the tests of the exact oracle share, with access to their values."""
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.graph import BondGraph
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 MOTOR = """

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.exact.offsets import square_part
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 _TWO_RATIOS = """bg 1

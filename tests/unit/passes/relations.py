@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import sympy as sp
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.source import Source
 from bondgraph.views import Relation
 

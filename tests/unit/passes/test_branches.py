@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from bondgraph.backends.forty_digits import Evaluation, value
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Branch, Program, Ref, flat
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.batch import Lanes
 from bondgraph.text.source import Source
 from tests.sampled import Sampled

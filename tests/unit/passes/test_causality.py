@@ -7,6 +7,7 @@ import sys
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.expr import Pool
 from bondgraph.passes.causality.assign import _greedy, assign
@@ -14,7 +15,6 @@ from bondgraph.passes.causality.cores import oblige
 from bondgraph.passes.causality.repair import Matching
 from bondgraph.passes.causality.rules import demands, network
 from bondgraph.passes.causality.strokes import Strokes
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source, Span
 from tests.unit.passes.causality_graphs import assemble, broken_rules, build, receivers

@@ -7,12 +7,12 @@ from random import Random
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.graph import BondGraph
 from bondgraph.passes.causality.assign import assign
 from bondgraph.passes.causality.cores import cores
 from bondgraph.passes.causality.rules import demands, network
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.source import Source
 from tests.random.graphs import generate

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.passes.elimination.colour import colours
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 

@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import Pool
 from bondgraph.ir.graph import BondGraph
 from bondgraph.passes.causality.conflicts import conflicts
@@ -13,7 +14,6 @@ from bondgraph.passes.causality.cores import cores
 from bondgraph.passes.causality.explanation import explanation
 from bondgraph.passes.causality.mends import Change, mends
 from bondgraph.passes.causality.rules import demands, network
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError, Diagnostic
 from bondgraph.text.source import Source, Span
 from tests.unit.passes.causality_graphs import assemble, build

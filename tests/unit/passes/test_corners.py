@@ -7,12 +7,12 @@ import sympy as sp
 
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.zero import is_zero
+from bondgraph.compilation import Compilation
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.ir.expr import Expr, Kind, Pool, symbols
 from bondgraph.passes.elimination.initial import without_free_integrals
 from bondgraph.passes.relation.moduli import vanishing_divisors
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.source import Source
 

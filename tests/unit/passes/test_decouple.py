@@ -9,9 +9,9 @@ import pytest
 import sympy as sp
 
 from bondgraph.cli.main import main
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
 from bondgraph.passes.elimination.decouple import free_of
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 from bondgraph.views import Relation
 from tests.real.draw import of_seed

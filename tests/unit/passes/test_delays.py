@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bondgraph.algebra.symbolic import t
-from bondgraph.pipeline import Compilation, compile
+from bondgraph.compilation import Compilation, compile
 from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.runtime.simulation.run import Robot
 from bondgraph.text.diagnostic import CompileError

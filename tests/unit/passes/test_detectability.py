@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.source import Source
 from tests.unit.passes.relations import compiled
 

@@ -8,8 +8,8 @@ from collections.abc import Iterable
 import pytest
 import sympy as sp
 
+from bondgraph.compilation import Compilation
 from bondgraph.passes.analysis import double_faults
-from bondgraph.pipeline import Compilation
 from tests.unit.passes.relations import compiled, t, value
 
 p = sp.Symbol("p")

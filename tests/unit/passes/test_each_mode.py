@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import Op, topological
 from bondgraph.notation.line import show
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.source import Source
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bondgraph.pipeline import compile as open_model
+from bondgraph.compilation import compile as open_model
 
 OURS = {"negative-coefficient", "wide-tolerance", "source-kind", "temperature-scale"}
 CIRCUIT = "Se:U -> 1:i; i -> R:r = 1 Ohm; i -> I:l = 1 mH; i -> Df:y; "

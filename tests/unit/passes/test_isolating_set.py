@@ -10,8 +10,8 @@ import pytest
 
 from bondgraph.algebra.in_mode import in_mode
 from bondgraph.cli.main import main
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 from tests.real.draw import of_seed
 from tests.unit.passes.relations import is_multiple

@@ -14,8 +14,8 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.optimize import brentq
 
 from bondgraph.cli.result import result
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Ref
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.batch import Lanes
 from bondgraph.text.source import Source
 from tests.sampled import Sampled

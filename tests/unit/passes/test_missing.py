@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.passes.elimination import chaining as chain
 from bondgraph.passes.elimination.shortfall import stop_without_any
-from bondgraph.pipeline import Compilation
 from bondgraph.structural.rank import relations
 from bondgraph.text.diagnostic import CompileError, Report
 from tests.unit.passes.relations import compiled

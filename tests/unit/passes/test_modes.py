@@ -8,8 +8,8 @@ import re
 import pytest
 
 from bondgraph.cli.main import main
+from bondgraph.compilation import Compilation
 from bondgraph.ir.signature_matrix import ModeSignature, SignatureMatrix
-from bondgraph.pipeline import Compilation
 from tests.unit.passes.relations import compiled
 
 SWITCHED = {

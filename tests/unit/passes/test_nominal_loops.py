@@ -8,7 +8,7 @@ from random import Random
 import pytest
 import sympy
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.diagnostic import Diagnostic
 from bondgraph.text.source import Source
 

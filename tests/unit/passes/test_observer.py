@@ -11,9 +11,9 @@ from scipy.integrate import solve_ivp
 
 import bondgraph
 from bondgraph import Course, Sampling, Scenario
+from bondgraph.compilation import Compilation
 from bondgraph.ir.residuals import Observer
 from bondgraph.passes.analysis.verify import follows
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.batch import Lanes
 from bondgraph.text.diagnostic import Report
 

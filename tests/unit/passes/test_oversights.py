@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bondgraph.pipeline import compile as open_model
+from bondgraph.compilation import compile as open_model
 from bondgraph.text.diagnostic import Diagnostic
 
 OURS = {"part-not-measured", "part-not-driven", "value-not-used", "value-without-name"}

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from tests.sampled import Sampled
 from tests.unit.passes.relations import compiled
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.source import Source
 
 

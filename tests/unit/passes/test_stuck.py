@@ -7,7 +7,7 @@ import json
 import pytest
 
 from bondgraph.cli.main import main
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from tests.unit.passes.relations import compiled
 
 

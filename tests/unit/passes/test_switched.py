@@ -9,10 +9,10 @@ import pytest
 from numpy.polynomial import Polynomial
 
 import bondgraph
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Const, Expression, Function, Product, Ref, Sum
 from bondgraph.passes.lowering.jumps import Jumps
 from bondgraph.passes.lowering.opening import _shape
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 from tests.sampled import Sampled
 from tests.switched.plants import BOOST, CAPACITORS, CARRIAGE, COIL

@@ -10,8 +10,8 @@ import pytest
 import sympy
 
 from bondgraph.cli.result import result
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Ref
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.batch import Lanes
 from bondgraph.text.source import Source
 from tests.sampled import Sampled

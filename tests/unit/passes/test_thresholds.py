@@ -15,9 +15,9 @@ from scipy.integrate import solve_ivp
 
 import bondgraph
 from bondgraph.cli.summary import report
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Program
 from bondgraph.passes.lowering.uncertain import enlarged
-from bondgraph.pipeline import Compilation
 from tests.sampled import Sampled
 
 _ROOT = Path(__file__).resolve().parents[3]

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 import bondgraph
+from bondgraph.compilation import Compilation
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.plant import Plant
 from bondgraph.ir.expr import Kind
 from bondgraph.ir.signature_matrix import SignatureMatrix
-from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 _TWO_CURRENTS = """

@@ -2,12 +2,12 @@
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.exact.plant import Plant
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.passes.analysis.signatures import signatures
 from bondgraph.passes.analysis.verify import verify
 from bondgraph.passes.relation.form import relations
-from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source
 

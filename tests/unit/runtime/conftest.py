@@ -10,7 +10,7 @@ import pytest
 
 import bondgraph
 from bondgraph.cli import options
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.log import Log
 from tests.unit.runtime.monitoring.watch import ROOT
 

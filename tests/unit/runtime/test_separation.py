@@ -12,8 +12,8 @@ import pytest
 
 import bondgraph
 from bondgraph.cli.main import main
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Program
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.batch import Lanes
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.separation import Separation, _apart, _white, separation

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import bondgraph
+from bondgraph.compilation import Compilation
 from bondgraph.ir.graph import BondGraph
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.shown import shown
 from bondgraph.runtime.smallest import Detection, Situation, noise, smallest
 from tests.sampled import Sampled

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import bondgraph
+from bondgraph.compilation import Compilation
 from bondgraph.passes.analysis.candidates import bond_graph_places
-from bondgraph.pipeline import Compilation
 from bondgraph.structural.mso import mso_sets
 from bondgraph.structural.placement import Placing
 from bondgraph.structural.structural_isolability import isolability

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.source import Source
 
 _TEXT = """bg 1

@@ -11,7 +11,7 @@ import pytest
 
 import bondgraph
 from bondgraph.cli.main import main
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.accepted_faults import AcceptedFaults
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict

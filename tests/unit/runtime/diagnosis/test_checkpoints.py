@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 

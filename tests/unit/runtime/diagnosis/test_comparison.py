@@ -10,7 +10,7 @@ import pytest
 from scipy.signal import lsim
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses

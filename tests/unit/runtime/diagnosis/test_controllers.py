@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from bondgraph.cli.main import main
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, sized
 from bondgraph.runtime.log import Array

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.calibration import Tuned, tune
 from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses

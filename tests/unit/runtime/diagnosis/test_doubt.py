@@ -12,8 +12,8 @@ import math
 import numpy as np
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.log import Array

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _TEXT = """bg 1

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.driving import Driving
 from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.log import Array

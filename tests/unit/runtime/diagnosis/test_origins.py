@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.origins import Readings

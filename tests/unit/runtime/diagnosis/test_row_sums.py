@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Rows
 from bondgraph.runtime.diagnosis.row_averages import LAGS

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.standing_encoders import StandingEncoders
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict

@@ -16,9 +16,9 @@ import pytest
 from scipy import stats
 from scipy.signal import lfilter
 
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
 from bondgraph.ir.residual_limit import ShownSize
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.calibration import Tuned, _Work, tune
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.rows import to_row_ends

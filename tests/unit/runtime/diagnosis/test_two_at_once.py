@@ -10,7 +10,7 @@ import pytest
 from scipy.linalg import expm
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import ExplainedPair, Rows
 from bondgraph.runtime.diagnosis.row_averages import LAGS

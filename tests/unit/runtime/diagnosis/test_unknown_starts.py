@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.started import started
 from bondgraph.runtime.log import Array, Log

@@ -12,7 +12,7 @@ import pyarrow.csv
 import pytest
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.fleet.watcher import Item, LogFile
 from bondgraph.runtime.fleet.workers import watched
 from bondgraph.runtime.log import Log

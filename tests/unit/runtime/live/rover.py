@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import bondgraph
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.text.source import Source
 
 MASS, FRICTION, TRACK, TURN = 0.5, 2.0, 0.2, 3600

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bondgraph.pipeline import Compilation
+from bondgraph.compilation import Compilation
 from bondgraph.runtime.live.twin import Twin
 from bondgraph.runtime.log import joined
 from bondgraph.runtime.simulation.run import Robot

@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bondgraph.backends.runnable import runnable
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Program
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.monitoring.engine import Engine, PythonEngine, setting
 from bondgraph.runtime.monitoring.native import Library, NativeEngine, start
 from bondgraph.text.source import Source

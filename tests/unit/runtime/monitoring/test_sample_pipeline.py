@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
-from bondgraph.pipeline import Compilation
 from bondgraph.runtime.log import TIME, TIME_UNIT, Array, Log, LogError
 from bondgraph.runtime.monitoring import sample_pipeline
 from bondgraph.runtime.monitoring.clock import clock_of
