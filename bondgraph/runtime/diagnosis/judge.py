@@ -207,6 +207,8 @@ class Judge:
             self._compared.follow(most)
         elif self._after < _UNEXPLAINED:
             return None
+        else:
+            self._best = None  # what explained fewer rows does not explain these
         if most is not None and self._after >= _UNEXPLAINED:
             self._ask_for_two(history, levels, fits(most))
             sure = sure if self._two.alone else ()
