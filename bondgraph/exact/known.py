@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from bondgraph.exact.evaluate import pull, values_of
+from bondgraph.exact.adjoints import pull
+from bondgraph.exact.evaluate import values_of
 from bondgraph.exact.outline import plan
 from bondgraph.exact.plant_equations import Setting, constant
 from bondgraph.exact.signal_algebra import Mixed, Taylor

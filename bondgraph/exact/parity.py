@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from bondgraph.exact.evaluate import evaluate, pull, values_of
+from bondgraph.exact.adjoints import pull
+from bondgraph.exact.evaluate import evaluate, values_of
 from bondgraph.exact.outline import demands
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.point import STRIDE

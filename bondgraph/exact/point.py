@@ -13,7 +13,7 @@ from heapq import heapify, heappop, heappush
 from math import isfinite
 from random import Random
 
-from bondgraph.exact.evaluate import chosen, evaluate, solve, values_of
+from bondgraph.exact.evaluate import chosen, evaluate, values_of, values_where
 from bondgraph.exact.forms import Form, Forms, NotLinear
 from bondgraph.exact.knots import together
 from bondgraph.exact.known import KnownSample, gradient
@@ -25,7 +25,9 @@ from bondgraph.exact.plant_equations import (
     coefficient_row,
     reach,
 )
+from bondgraph.exact.signal_algebra import Taylor
 from bondgraph.field import series
+from bondgraph.field.balls import zero_of
 from bondgraph.field.numbers import INVERSES, Number, Numbers, Undefined
 from bondgraph.field.series import Series
 from bondgraph.field.sparse import (
@@ -279,7 +281,7 @@ class Point:
         values = self.setting.values
         nodes = topological([equation.rest])
         fixed = {n: values[n][:1] for n in nodes if n.op is Op.SYM and n not in rows}
-        found = solve(self.numbers, equation.rest, fixed, straight, outside, self.random)
+        found = zero_on_line(self.numbers, equation.rest, fixed, straight, outside, self.random)
         self.add({**direction, CONSTANT: -found})
         return True
 
@@ -382,6 +384,29 @@ class Point:
                 values[column] = self.numbers.any(self.random)
         back_substitute(self.pivots, values)
         return values
+
+
+def zero_on_line(
+    numbers: Numbers,
+    law: Expr,
+    fixed: Mapping[Expr, Series],
+    lines: Mapping[Expr, tuple[Number, Number]],
+    outside: tuple[Number, Number],
+    random: Random,
+) -> Number:
+    """A real number z at which `law` + `outside` vanishes; raises `Undefined` without one.
+
+    The symbols of the law are `fixed`, or straight `lines` in z: value at zero and slope, as
+    `outside` is. Of several solutions a random one.
+    """
+    algebra = Taylor(numbers)
+
+    def value(z: Number) -> Number:
+        at = {symbol: [start + slope * z] for symbol, (start, slope) in lines.items()}
+        found = values_where(law, {**fixed, **at}, algebra, 1)
+        return found[law][0] + outside[0] + outside[1] * z
+
+    return zero_of(value, numbers.number(0), random)
 
 
 def _undone(

@@ -13,14 +13,8 @@ from operator import attrgetter
 from typing import NamedTuple, TypeVar
 
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.evaluate import (
-    Forward,
-    Sensitivity,
-    Side,
-    evaluate,
-    sensitivities,
-    terms_needed,
-)
+from bondgraph.exact.dependence import Forward, Sensitivity, Side, sensitivities
+from bondgraph.exact.evaluate import evaluate, terms_needed
 from bondgraph.exact.free import FreeSample
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.outline import Outline, highest_order, outline

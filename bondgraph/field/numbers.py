@@ -38,7 +38,7 @@ class Numbers(Protocol):
 
     #: Whether these are the numbers of the machine, with all identities of functions.
     real: bool
-    #: Solutions of equations that were found, see `bondgraph.exact.evaluate`.
+    #: Solutions of equations that were found, see `bondgraph.exact.implicit_roots`.
     roots: dict[object, Number]
 
     def number(self, x: int) -> Number:

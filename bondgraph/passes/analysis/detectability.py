@@ -7,7 +7,8 @@ from functools import cached_property, partial
 from random import Random
 from typing import Any
 
-from bondgraph.exact.evaluate import Incremental, Sample, evaluate, sensitivities
+from bondgraph.exact.dependence import sensitivities
+from bondgraph.exact.evaluate import Incremental, Sample, evaluate
 from bondgraph.exact.exponentials import ExponentialSample
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.plant import ExactUnavailable, Plant

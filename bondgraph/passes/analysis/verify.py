@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from bondgraph.exact.evaluate import Forward, Sample, evaluate, sensitivities, terms_needed
+from bondgraph.exact.dependence import Forward, sensitivities
+from bondgraph.exact.evaluate import Sample, evaluate, terms_needed
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.outline import outline
 from bondgraph.exact.plant import Contradictory, ExactUnavailable, Plant

@@ -14,7 +14,7 @@ from bondgraph.algebra.cancelled import without
 from bondgraph.algebra.cleared import cleared
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.present import upright
-from bondgraph.exact.evaluate import Sensitivity
+from bondgraph.exact.dependence import Sensitivity
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.ir.equation_system import EquationSystem

@@ -1,182 +1,37 @@
-"""Sensitivities: dependence, orders, what is dead, and what only the past matters for."""
+"""Values of expressions: what is missing, powers, what is linear, what has changed."""
 
 from fractions import Fraction
 
 import pytest
 
-from bondgraph.exact.evaluate import Incremental, evaluate, sensitivities
-from bondgraph.exact.outline import highest_order, integral_depth
+from bondgraph.exact.evaluate import Incremental, evaluate
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.field.series import Series
-from bondgraph.ir.expr import Expr, Kind, Pool, Symbol
-from tests.unit.exact.models import FLEXIBLE, MOTOR, graph, symbols
-
-
-class Random:
-    """Independent random signals, as power series."""
-
-    def __init__(self, order: int = 6, seed: int = 0) -> None:
-        from bondgraph.exact.signal_algebra import Taylor
-        from bondgraph.field.prime import PrimeField
-
-        self.algebra = Taylor(PrimeField(1))
-        self.order, self.seed = order, seed
-
-    def value(self, symbol: Expr) -> Series:
-        from random import Random as Draw
-
-        signal = symbol.symbol.kind in (Kind.SENSOR, Kind.INPUT)
-        draw = Draw(f"{symbol.symbol.name}{self.seed if signal else ''}")
-        n = self.order + 1 if signal else 1
-        return [self.algebra.numbers.any(draw) for _ in range(n)]
-
-    def start(self, initial: Symbol) -> int:
-        return 12345 + self.seed
-
-    def earlier(self, steps: int) -> "Random":
-        return Random(self.order, self.seed + steps)
-
-
-pool = Pool()
-x, y = (pool.symbol(n, Kind.SENSOR) for n in "xy")
-a, b = (pool.symbol(n, Kind.PARAM) for n in "ab")
-x0 = pool.symbol("x0", Kind.INITIAL)
-D, mul, add = pool.der, pool.mul, pool.add
-
-
-def test_orders_and_dependence() -> None:
-    r = add((1, mul(a, D(D(x)))), (1, mul(b, D(y))), (1, x))
-    s = sensitivities(r, Random())
-    assert s.depends == {x: True, y: True, a: True, b: True}
-    assert s.orders == {x: 2, y: 1}
-    assert s.dead == frozenset()
-
-
-def test_what_cancels_is_dead() -> None:
-    # (a + b)^2 y - a^2 y - 2 a b y - b^2 y + x: y and both parameters cancel
-    square = pool.power(add((1, a), (1, b)), 2)
-    other = add((1, pool.power(a, 2)), (2, mul(a, b)), (1, pool.power(b, 2)))
-    r = add((1, mul(square, y)), (-1, mul(other, y)), (1, x))
-    s = sensitivities(r, Random())
-    assert s.depends == {x: True, y: False, a: False, b: False}
-    assert s.orders == {x: 0}
-    assert y in s.dead and x not in s.dead
-
-
-def test_a_parameter_is_a_function_of_time() -> None:
-    # D(a x) - a D(x) = a' x: seen by a varying parameter only
-    r = add((1, D(mul(a, x))), (-1, mul(a, D(x))))
-    assert sensitivities(r, Random()).depends[a]
-
-
-def test_the_highest_order_may_cancel() -> None:
-    r = add((1, D(mul(x, D(x)))), (-1, mul(x, D(D(x)))))  # = x'^2
-    assert sensitivities(r, Random()).orders == {x: 1}
-
-
-def test_an_integral_brings_in_the_past() -> None:
-    r = add((1, pool.integral(mul(a, x), x0)), (1, D(y)))
-    s = sensitivities(r, Random())
-    assert s.orders == {x: -1, y: 1}
-    assert s.depends[a] and s.starts == (x0.symbol,)
-    assert integral_depth([r]) == 1
-
-
-def test_integrals_that_cancel_leave_no_past() -> None:
-    # Int(a x) - a Int(x) forgets x while a is constant, not a itself
-    r = add((1, pool.integral(mul(a, x), x0)), (-1, mul(a, pool.integral(x, x0))), (1, y))
-    s = sensitivities(r, Random())
-    assert s.depends == {x: False, y: True, a: True}
-    assert s.orders == {y: 0}
-
-
-def test_nested_integrals_reach_further_back() -> None:
-    r = pool.integral(mul(x, pool.integral(y, x0)), x0)
-    s = sensitivities(r, Random())
-    assert s.orders == {x: -1, y: -1}
-    assert integral_depth([r]) == 2
-
-
-def test_a_derivative_undoes_an_integral() -> None:
-    r = D(mul(y, pool.integral(x, x0)))
-    s = sensitivities(r, Random())
-    assert s.orders == {x: 0, y: 1}
+from bondgraph.ir.expr import Expr, Kind
+from tests.unit.exact.models import MOTOR, graph, symbols
+from tests.unit.exact.random_signals import D, Signals, a, add, b, mul, pool, x, y
 
 
 def test_a_branch_without_value_does_no_harm_unless_taken() -> None:
     root = pool.fn("sqrt", x)
     safe = pool.choose(pool.compare(">", x, pool.zero), root, y)
     for seed in range(6):
-        evaluate([safe], Random(3, seed))
+        evaluate([safe], Signals(3, seed))
 
 
 def test_powers_with_rational_and_symbolic_exponents() -> None:
     square = pool.power(x, 2)
     half = pool.fn("pow", square, pool.num(Fraction(3, 2)))
-    value = evaluate([half, mul(x, x, x)], Random(3), 3)
+    value = evaluate([half, mul(x, x, x)], Signals(3), 3)
     assert value[0] in (value[1], [-v for v in value[1]])
     n = pool.symbol("n", Kind.PARAM)
     back = pool.fn("pow", pool.fn("pow", square, n), pool.power(n, -1))
-    assert evaluate([pool.sub(back, square)], Random(3), 3)[0] == [0, 0, 0]
-
-
-def test_an_exponent_that_may_change_is_seen() -> None:
-    n = pool.symbol("n", Kind.PARAM)
-    r = add((1, pool.fn("pow", pool.power(x, 2), n)), (1, y))
-    assert sensitivities(r, Random()).depends == {x: True, n: True, y: True}
-
-
-def test_a_number_as_exponent_has_its_own_slope() -> None:
-    # (x^2)^(2/5) to the fifth is x^4, so that x cancels
-    power = pool.fn("pow", pool.power(x, 2), pool.num(Fraction(2, 5)))
-    r = add((1, pool.power(power, 5)), (-1, pool.power(x, 4)), (1, y))
-    assert sensitivities(r, Random()).depends == {x: False, y: True}
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_what_a_decision_rests_on_stays_alive_in_every_branch(seed: int) -> None:
-    for r in (
-        pool.fn("min", mul(a, x), mul(b, y)),
-        pool.choose(pool.compare("<", x, y), mul(a, x), mul(b, y)),
-        mul(a, pool.fn("sign", mul(b, add((1, x), (1, y))))),
-    ):
-        assert sensitivities(r, Random(seed=seed), jumps=True).dead == frozenset()
-
-
-def motor_residual(g: object = None) -> tuple[Plant, Expr]:
-    model = graph(MOTOR)
-    p, s = model.pool, symbols(model)
-    torque = p.add((1, p.mul(s["b"], s["w"])), (1, p.der(p.mul(s["J"], s["w"]))))
-    i = p.div(torque, s["k"])
-    coil = p.add((1, p.mul(s["Re"], i)), (1, p.der(p.mul(s["L"], i))))
-    return Plant(model), p.add((1, s["U"]), (-1, coil), (-1, p.mul(s["k"], s["w"])))
-
-
-def test_series_and_exponentials_say_the_same() -> None:
-    plant, r = motor_residual()
-    one = sensitivities(r, plant.trajectory(1, highest_order([r])))
-    two = sensitivities(r, plant.exponential(1))
-    assert one == two
-    assert {k.symbol.name: v for k, v in two.orders.items()} == {"w": 2, "U": 0}
-
-
-def test_exponentials_find_orders_below_long_cancellations() -> None:
-    plant, _ = motor_residual()
-    p, s = plant.graph.pool, symbols(plant.graph)
-    w, U, k = s["w"], s["U"], s["k"]
-    high = w
-    for _ in range(12):
-        high = p.add((1, p.der(high)), (1, p.mul(k, high)))
-    same = w  # (D + k)^12 w again, written (D + k)^11 (D w) + k (D + k)^11 w
-    for _ in range(11):
-        same = p.add((1, p.der(same)), (1, p.mul(k, same)))
-    r = p.add((1, high), (-1, p.der(same)), (-1, p.mul(k, same)), (1, p.der(U)), (1, w))
-    assert sensitivities(r, plant.exponential(2)).orders == {w: 0, U: 1}
+    assert evaluate([pool.sub(back, square)], Signals(3), 3)[0] == [0, 0, 0]
 
 
 def test_exponentials_refuse_what_is_not_linear() -> None:
-    plant, _ = motor_residual()
+    plant = Plant(graph(MOTOR))
     p, s = plant.graph.pool, symbols(plant.graph)
     with pytest.raises(Mixed):
         evaluate([p.fn("sin", s["w"])], plant.exponential(1))
@@ -184,23 +39,7 @@ def test_exponentials_refuse_what_is_not_linear() -> None:
         evaluate([p.add((1, s["w"]), (1, p.mul(s["w"], s["w"])))], plant.exponential(1))
 
 
-def test_an_integral_on_a_trajectory_begins_at_the_declared_value() -> None:
-    model = graph(FLEXIBLE)
-    p, s = model.pool, symbols(model)
-    start = next(n for n in model.nodes if n.path == "spring").ports[0].initial
-    assert start is not None
-    twist = p.integral(p.sub(s["w1"], s["w2"]), start)
-    torque = p.sub(s["T"], p.der(p.mul(s["J"], s["w1"])))
-    r = p.sub(torque, p.mul(s["K"], twist))
-    plant = Plant(model)
-    assert evaluate([r], plant.trajectory(1, highest_order([r], 4)), 4)[0] == [0] * 4
-    t = plant.trajectory(1, highest_order([r], 2), "w2")
-    assert evaluate([r], t, 2)[0][1] != 0
-    seen = sensitivities(r, t)
-    assert {k.symbol.name: v for k, v in seen.orders.items()} == {"w1": 1, "w2": -1, "T": 0}
-
-
-class Otherwise(Random):
+class Otherwise(Signals):
     """The same signals, but for those that have the values of another point."""
 
     def __init__(self, *changed: Expr) -> None:
@@ -220,9 +59,9 @@ def test_what_rests_on_a_change_is_computed_anew_however_far_above(
     inner = add((1, mul(a, x)), (1, pool.one))
     root = add((1, mul(D(mul(inner, inner)), y)), (3, pool.power(y, -1)))
     n = 2
-    work = Incremental(root, Random(), n)
+    work = Incremental(root, Signals(), n)
     other = Otherwise(*changed)
     assert work.anew(changed, other) == evaluate([root], other, n)[0]
-    assert work.anew((), Random()) == evaluate([root], Random(), n)[0]  # nothing was kept of it
+    assert work.anew((), Signals()) == evaluate([root], Signals(), n)[0]  # nothing was kept of it
     if {a, x, y}.intersection(changed):
-        assert work.anew(changed, other) != work.anew((), Random())
+        assert work.anew(changed, other) != work.anew((), Signals())

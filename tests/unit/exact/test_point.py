@@ -7,11 +7,12 @@ from fractions import Fraction
 from random import Random
 
 import pytest
+from flint import arb
 
 from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.plant_equations import Equation, Setting
-from bondgraph.exact.point import STRIDE, Point, _inverted, _undone
-from bondgraph.field.balls import Reals
+from bondgraph.exact.point import STRIDE, Point, _inverted, _undone, zero_on_line
+from bondgraph.field.balls import NOTHING, Reals
 from bondgraph.field.numbers import INVERSES, Number, Undefined
 from bondgraph.field.prime import PrimeField
 from bondgraph.field.sparse import CONSTANT, Contradiction, Row
@@ -225,3 +226,40 @@ def test_a_value_goes_down_to_the_only_place_that_is_open(x_is_known: bool) -> N
     assert point.is_open(forms[y]) is not x_is_known
     if found:
         assert float(point.fix(point.row(forms[y]))) == pytest.approx(math.asinh(math.log(3)))
+
+
+_REALS = Reals({})
+p = Pool()
+x = p.symbol("x", Kind.FLOW)
+a = p.symbol("a", Kind.PARAM)
+
+
+def _zero(
+    law: Expr, outside: tuple[int, int] = (0, 0), seed: int = 1, **fixed: Number
+) -> Number:
+    """What x is where a law, with what stands outside of it, is zero."""
+    told = {p.symbol(name, Kind.PARAM): [value] for name, value in fixed.items()}
+    beside = (arb(outside[0]), arb(outside[1]))
+    return zero_on_line(_REALS, law, told, {x: (arb(0), arb(1))}, beside, Random(seed))
+
+
+@pytest.mark.parametrize(
+    "name", ["tanh", "sinh", "exp", "atan", "ssq", "abs", "ssqrt", "cbrt", "asinh"]
+)
+def test_a_solution_makes_the_equation_true(name: str) -> None:
+    """a f(x) + x - 5 = 0 for a = 0.7, within a ball that no quantity of a machine resolves."""
+    factor = arb(7) / 10
+    found = _zero(p.add((1, p.mul(a, p.fn(name, x))), (1, x), (-5, p.one)), a=factor)
+    value = factor * _REALS.value(name, found) + found - 5
+    assert value.contains(0) and value.rad() < NOTHING
+
+
+def test_what_stands_outside_counts() -> None:
+    # x^2 + (3 - 4 x) = 0 has the solutions 1 and 3, and both are found by some draw
+    found = {round(float(_zero(p.power(x, 2), (3, -4), seed)), 9) for seed in range(20)}
+    assert found == {1.0, 3.0}
+
+
+def test_an_equation_without_a_real_solution_is_refused() -> None:
+    with pytest.raises(Undefined):
+        _zero(p.add((1, p.power(x, 2)), (1, p.one)))

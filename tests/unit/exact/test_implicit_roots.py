@@ -1,0 +1,71 @@
+"""Roots as functions of time: x of x + x^3 = y, whose equation and slope are written by hand."""
+
+from __future__ import annotations
+
+import pytest
+from flint import arb
+
+from bondgraph.algebra.implicit import invert
+from bondgraph.exact.adjoints import pull
+from bondgraph.exact.evaluate import evaluate, values_of
+from bondgraph.exact.free import FreeSample
+from bondgraph.exact.outline import plan
+from bondgraph.exact.signal_algebra import Exponentials, Mixed, Taylor
+from bondgraph.field.balls import Reals
+from bondgraph.field.numbers import Undefined
+from bondgraph.field.prime import PrimeField
+from bondgraph.field.series import Series
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, Symbol
+
+pool = Pool()
+y = pool.symbol("y", Kind.SENSOR)
+unknown = pool.symbol("x", Kind.TEAR)
+rises = pool.add((1, unknown), (1, pool.power(unknown, 3)))
+x = invert(pool, pool.sub(y, rises), unknown, lambda _: None)
+assert x is not None and x.op is Op.ROOT
+
+
+class Told:
+    """A sensor that shows a series of real numbers."""
+
+    algebra = Taylor(Reals({}))
+
+    def __init__(self, *coefficients: int) -> None:
+        self.coefficients: Series = [arb(c) for c in coefficients]
+
+    def value(self, _: Expr) -> Series:
+        return self.coefficients
+
+    def start(self, _: Symbol) -> int:
+        return 0
+
+
+def test_the_value_and_every_coefficient_solve_the_equation() -> None:
+    sample = Told(10, -3, 5, 1)
+    found, back = evaluate([x, pool.add((1, x), (1, pool.power(x, 3)))], sample, 4)
+    assert abs(float(found[0]) - 2) < 1e-12
+    assert all((c - told).contains(0) for c, told in zip(back, sample.coefficients, strict=True))
+    assert abs(float(found[1]) + 3 / 13) < 1e-12  # y' / (1 + 3 x^2)
+
+
+def test_the_slope_is_that_of_the_implicit_function() -> None:
+    nodes, need = plan(x, 1)
+    sample = Told(10)
+    adjoints = {x: [1]}
+    pull(nodes, need, values_of(nodes, need, sample)[0], sample.algebra, adjoints)
+    assert abs(float(adjoints[y][0]) - 1 / 13) < 1e-12
+
+
+def test_without_a_plant_it_moves_as_its_equation_says_from_a_random_value() -> None:
+    sample = FreeSample(Taylor(PrimeField(5)), 2, 7)
+    (found,), (signal,) = evaluate([x], sample, 2), evaluate([y], sample, 2)
+    assert found[1] * (1 + 3 * found[0] ** 2) == signal[1]
+    assert evaluate([x], sample) == [found[:1]]
+
+
+@pytest.mark.parametrize(("kind", "refused"), [(Kind.SENSOR, Mixed), (Kind.PARAM, Undefined)])
+def test_exponentials_have_no_root(kind: Kind, refused: type[Exception]) -> None:
+    of = pool.substitute([x], {y: pool.symbol(kind.value, kind)})[0]
+    numbers = PrimeField(1)
+    with pytest.raises(refused):
+        evaluate([of], FreeSample(Exponentials(numbers, 3, 5), 0, 1))
