@@ -7,8 +7,9 @@ angles does not show on this machine, however long it runs.
 from __future__ import annotations
 
 from bondgraph.exact.evaluate import evaluate
-from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant import Plant
 from bondgraph.exact.plant_equations import has_sides
+from bondgraph.exact.trajectory import ExactUnavailable
 from bondgraph.field.numbers import Undefined
 from bondgraph.ir.expr import Expr, Op, symbols, topological
 
@@ -27,12 +28,12 @@ def from_start(plant: Plant, seed: int = 1, differs: Expr | None = None) -> Plan
     2002, section 4.2). The same plant where there is no such state, or none could be found. An
     initial value that `differs` from the declared one is none that a state keeps.
 
-    >>> # from_start(plant).held  # (the initial value of the angle,)
+    >>> # from_start(plant).structure.held  # (the initial value of the angle,)
     """
     faulty = frozenset(plant.graph.fault_symbols().values())
     held = {
         state: value
-        for initial, state, value in plant.declared_starts()
+        for initial, state, value in plant.structure.declared_starts()
         if initial is not differs and faulty.isdisjoint(symbols(value))
     }
     for _ in range(_ROUNDS):
@@ -51,17 +52,19 @@ def from_start(plant: Plant, seed: int = 1, differs: Expr | None = None) -> Plan
 
 def _leaving(plant: Plant, at_start: Plant, held: list[Expr], seed: int) -> set[Expr]:
     """The states that have a rate at one of some random points, or at one of its branches."""
-    rates = {rate.variable: rate.value for rate in plant.assembly.rates}
-    values = [rates[plant.assembly.place[state][0]] for state in held]
-    nodes = topological([*[law for _, law in plant.assembly.laws], *rates.values()])
-    branches = bool(plant.modes) or any(n.op in (Op.IF, Op.ROOT) or has_sides(n) for n in nodes)
+    structure, whole = plant.structure, plant.structure.assembly
+    rates = {rate.variable: rate.value for rate in whole.rates}
+    values = [rates[whole.place[state][0]] for state in held]
+    nodes = topological([*[law for _, law in whole.laws], *rates.values()])
+    sided = any(n.op in (Op.IF, Op.ROOT) or has_sides(n) for n in nodes)
+    branches = sided or bool(structure.modes)
     found: set[Expr] = set()
     for point in range(_POINTS_WITH_BRANCHES if branches else _POINTS):
         at = at_start.trajectory(
             1000 * seed + point,
             0,
             faults=plant.graph.faults,
-            part=at_start.part_for(values),
+            part=at_start.structure.part_for(values),
             roots=values,
             turned=point % 2 > 0,
         )

@@ -35,7 +35,7 @@ def parity(
     The equations of the part of the plant that the `roots` are about are differentiated up to
     `times` times. Raises `ExactUnavailable` or `Undefined` like a trajectory does.
     """
-    part = plant.part_for(roots)
+    part = plant.structure.part_for(roots)
     trajectory = plant.trajectory(number, times + 2, modes=modes, part=part, roots=roots)
     rows = _Rows(plant, trajectory, faults, times).all()
     left: dict[int, Row] = {}

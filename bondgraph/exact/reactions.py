@@ -18,11 +18,11 @@ from bondgraph.exact.evaluate import evaluate, terms_needed
 from bondgraph.exact.free import FreeSample
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.outline import Outline, highest_order, outline
-from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant import Plant
 from bondgraph.exact.plant_equations import has_sides
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.exact.switch_modes import assignments, modes_of
-from bondgraph.exact.trajectory import Trajectory
+from bondgraph.exact.trajectory import ExactUnavailable, Trajectory
 from bondgraph.field.numbers import CUT, DividedByZero, Undefined
 from bondgraph.ir.expr import Expr, Kind, Op, symbols
 
@@ -46,13 +46,15 @@ class Reactions:
 
     def __init__(self, plant: Plant, seed: int, modes: Mapping[Expr, int] | None = None) -> None:
         self.plant = plant
+        self._structure = plant.structure
         self.seed = seed
         self.modes = modes
         graph = plant.graph
-        whole = plant.assembly  # a command that saturates is a reading, not a law
+        whole = self._structure.assembly  # a command that saturates is a reading, not a law
         told = [*whole.readings, *whole.shown]
         roots = [law for _, law in whole.laws] + [r.value for r in whole.rates]
-        self.turns = _turns([*roots, *[e for _, _, e in told]], dict.fromkeys(plant.modes, 0))
+        roots += [e for _, _, e in told]
+        self.turns = _turns(roots, dict.fromkeys(self._structure.modes, 0))
         self.symbols = graph.fault_symbols()
         self.faults = {symbol: name for name, symbol in self.symbols.items()}
         switches = {symbol: symbol.symbol.name for symbol in modes or ()}
@@ -152,7 +154,7 @@ class Reactions:
         What a trajectory shows that leaves a law out, the plant may not show.
         """
         sample = self.plant.sample(exprs, number, terms_needed(exprs), modes=modes)
-        if isinstance(sample, Trajectory) and sample.part is not self.plant.part_for(exprs):
+        if isinstance(sample, Trajectory) and sample.part is not self._structure.part_for(exprs):
             raise ExactUnavailable(_NO_POINT)
         forward = Forward(exprs, sample)
         found = [sensitivities(expr, sample, forward=forward) for expr in exprs]
@@ -180,7 +182,7 @@ class Reactions:
 
     def _moves_anywhere(self, expr: Expr, acting: Container[Expr]) -> bool:
         """Whether faults move a relation on the whole part of the plant that shows its signals."""
-        faults = self._within(self.plant.part_for([expr]), acting)
+        faults = self._within(self._structure.part_for([expr]), acting)
         if not faults:
             return False
         size = terms_needed([expr])
@@ -224,7 +226,7 @@ class Reactions:
         self, part: Assembly, candidates: Container[Expr], but: Container[Expr] = ()
     ) -> tuple[str, ...]:
         """The names of the faults that can act in a part of the plant, some left out."""
-        reached = [s for s in self.plant.reached(part) if s in candidates and s not in but]
+        reached = [s for s in self._structure.reached(part) if s in candidates and s not in but]
         return tuple(self._acting[s] for s in sorted(reached, key=_ID) if s in self._acting)
 
     def _unmoved_nearby(
@@ -234,12 +236,12 @@ class Reactions:
 
         And so on the plant. Where nothing has branches: one point then stands for all.
         """
-        if self.turns > 1 or self.modes or _turns([expr], None) > 1 or self.plant.modes:
+        if self.turns > 1 or self.modes or _turns([expr], None) > 1 or self._structure.modes:
             return False
-        size, part = terms_needed([expr]), self.plant.part_for([expr])
+        size, part = terms_needed([expr]), self._structure.part_for([expr])
         changed = any(s in candidates and s not in but for s in self._faulty_parameters)
         if changed or not self.plant.many([expr], size, part):
-            part = self.plant.cone(expr)  # else the whole moves as it does without the faults
+            part = self._structure.cone(expr)  # else the whole moves as it does without the faults
         acting = self._within(part, candidates, but)
 
         def moved(number: int) -> bool:
@@ -407,7 +409,7 @@ def _apart(
         elsewhere = Reactions(plant.apart(), seed).sensed([expr], wanted=unseen)[0]
         hidden = unseen & elsewhere
         found: dict[Expr, list[Expr]] = {s: [] for s in outline(expr).symbols if s in hidden}
-        held = declared.plant.held
+        held = declared.plant.structure.held
         for start in held if hidden else []:
             other = Reactions(from_start(plant, seed, start), seed)
             for symbol in hidden & other.sensed([expr], wanted=hidden)[0]:
@@ -418,7 +420,7 @@ def _apart(
             other = from_start(other, seed) if held else other
             return wanted & Reactions(other, seed).sensed([expr], wanted=wanted)[0]
 
-        for constant, shown in _singly(seen_with, plant.numbered(expr), hidden):
+        for constant, shown in _singly(seen_with, plant.structure.numbered(expr), hidden):
             for symbol in shown:
                 found[symbol].append(constant)
     except ExactUnavailable:

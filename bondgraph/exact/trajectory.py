@@ -1,4 +1,4 @@
-"""One random exact behaviour of a plant: what a residual is told, and what truly happens."""
+"""One random exact behaviour of a plant, as told and as it truly is, or why there is none."""
 
 from __future__ import annotations
 
@@ -15,6 +15,21 @@ from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Symbol
 
 #: What draws the same healthy plant with the same constants at another time, if it can be found.
 Again: TypeAlias = "Callable[[Trajectory, int, dict[Expr, Series]], Trajectory | None]"
+
+
+class ExactUnavailable(Exception):
+    """The oracle has no exact trajectory of this plant; the message is a reason for people."""
+
+
+class Contradictory(ExactUnavailable):
+    """No plant could behave like this: the equations are more than what they could determine.
+
+    `node` is the number of the node at which one is too many, -1 if it is nobody's.
+    """
+
+    def __init__(self, message: str, node: int) -> None:
+        super().__init__(message)
+        self.node = node
 
 
 class Trajectory:

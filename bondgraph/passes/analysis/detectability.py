@@ -11,12 +11,12 @@ from bondgraph.exact.dependence import sensitivities
 from bondgraph.exact.evaluate import Incremental, Sample, evaluate
 from bondgraph.exact.exponentials import ExponentialSample
 from bondgraph.exact.outline import highest_order, integral_depth
-from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.exact.steady_operation import held, rest, steady
 from bondgraph.exact.taylor import Solver
-from bondgraph.exact.trajectory import Trajectory
+from bondgraph.exact.trajectory import ExactUnavailable, Trajectory
 from bondgraph.field.numbers import Number, Undefined
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
 from bondgraph.ir.residuals import ResidualSet
@@ -123,7 +123,7 @@ def _at(
 ) -> _Point | None:
     n = integral_depth(exprs) + 2
     order = highest_order(exprs, n)
-    part = plant.part_for(exprs)
+    part = plant.structure.part_for(exprs)
     for turn in range(_TRIES):
         at = number + 100_000 * turn
         try:

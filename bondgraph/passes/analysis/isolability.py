@@ -14,8 +14,9 @@ from functools import partial
 
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.parity import parity
-from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions, in_modes
+from bondgraph.exact.trajectory import ExactUnavailable
 from bondgraph.field.numbers import Numbers
 from bondgraph.field.sparse import Row, eliminate
 from bondgraph.ir.expr import Expr, Kind, symbols

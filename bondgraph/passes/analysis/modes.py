@@ -6,9 +6,10 @@ from collections.abc import Mapping
 
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.outline import outline
-from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.exact.switch_modes import assignments, modes_of
+from bondgraph.exact.trajectory import ExactUnavailable
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signature_matrix import ModeSignature, ModeSignatures, SignatureMatrix

@@ -10,9 +10,8 @@ from bondgraph.algebra.cleared import divisors
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.exact.evaluate import Sample, values_of
 from bondgraph.exact.outline import demands
-from bondgraph.exact.plant import ExactUnavailable
 from bondgraph.exact.signal_algebra import Mixed
-from bondgraph.exact.trajectory import Trajectory
+from bondgraph.exact.trajectory import ExactUnavailable, Trajectory
 from bondgraph.ir.expr import Expr, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual, Step

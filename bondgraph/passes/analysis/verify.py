@@ -13,10 +13,10 @@ from bondgraph.exact.dependence import Forward, sensitivities
 from bondgraph.exact.evaluate import Sample, evaluate, terms_needed
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.outline import outline
-from bondgraph.exact.plant import Contradictory, ExactUnavailable, Plant
+from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions, branches
 from bondgraph.exact.switch_modes import assignments, modes_of
-from bondgraph.exact.trajectory import Trajectory
+from bondgraph.exact.trajectory import Contradictory, ExactUnavailable, Trajectory
 from bondgraph.exact.verification import Verification
 from bondgraph.field.numbers import Undefined
 from bondgraph.ir.expr import Expr, Kind

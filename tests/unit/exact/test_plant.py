@@ -5,7 +5,8 @@ from flint import arb, nmod
 
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.outline import highest_order
-from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant import Plant
+from bondgraph.exact.trajectory import ExactUnavailable
 from bondgraph.field.prime import inverse
 from bondgraph.field.series import Series
 from bondgraph.ir.expr import Expr
@@ -97,11 +98,12 @@ def test_a_spring_that_is_held_keeps_its_twist() -> None:
     """Without its rate nothing ties the speeds together; its torque 2 K stays, the rest goes on."""
     model = graph(FLEXIBLE.replace("q0 = 0", "q0 = 2"))
     plant = Plant(model)
-    ((start, state, two),) = plant.declared_starts()
+    ((start, state, two),) = plant.structure.declared_starts()
     held = plant.holding({state: two})
-    assert held.held == (start,)
-    gone = {r.variable for r in plant.assembly.rates} - {r.variable for r in held.assembly.rates}
-    assert gone == {plant.assembly.place[state][0]}
+    assert held.structure.held == (start,)
+    whole, rest = plant.structure.assembly, held.structure.assembly
+    gone = {r.variable for r in whole.rates} - {r.variable for r in rest.rates}
+    assert gone == {whole.place[state][0]}
     t, s = held.trajectory(2, N), symbols(model)
     torque = [
         t.value(s["T"])[n] - t.value(s["J"])[0] * dw
@@ -224,16 +226,15 @@ model A { param a = 1; param b = 1
 @pytest.mark.parametrize("name", HARD)
 def test_hard_plants_satisfy_every_law_to_every_order(name: str) -> None:
     plant = Plant(graph(HARD[name]))
-    t = plant.trajectory(2, N)
-    sample = t.truths
-    for _, law in plant.assembly.laws:
+    whole, sample = plant.structure.assembly, plant.trajectory(2, N).truths
+    for _, law in whole.laws:
         assert vanish(evaluate([law], sample, N - 2)[0])
-    for node, terms, when, _ in plant.assembly.balances:
+    for node, terms, when, _ in whole.balances:
         assert when is None
         for n in range(N - 2):
             total = sum(sign * sample._variables[v][n] for v, sign in terms)
             assert vanish([total]), node
-    for _, variable, value in plant.assembly.rates:
+    for _, variable, value in whole.rates:
         state = sample._variables[variable]
         both = zip(rate(state)[: N - 2], sample.value(value)[: N - 2], strict=False)
         assert vanish([a - b for a, b in both])
@@ -260,8 +261,9 @@ def test_an_over_determined_plant_has_no_trajectory() -> None:
 
     plant = Plant(graph(MOTOR))
     extra = Balance(0, ((0, 1), (1, 1)), None, 0)
-    plant.assembly = plant.assembly._replace(
-        balances=(*plant.assembly.balances, *[extra._replace(node=n) for n in range(3)])
+    whole = plant.structure.assembly
+    plant.structure.assembly = whole._replace(
+        balances=(*whole.balances, *[extra._replace(node=n) for n in range(3)])
     )
     with pytest.raises(ExactUnavailable):
         plant.trajectory(1, 2)

@@ -10,9 +10,10 @@ import pytest
 
 import bondgraph
 from bondgraph.algebra.implicit import invert
-from bondgraph.exact.plant import ATTEMPTS, ExactUnavailable, Plant
+from bondgraph.exact.plant import Plant
+from bondgraph.exact.plant_draws import ATTEMPTS, Draws
 from bondgraph.exact.reactions import Reactions, _singly, branches
-from bondgraph.exact.trajectory import Trajectory
+from bondgraph.exact.trajectory import ExactUnavailable, Trajectory
 from bondgraph.field.numbers import DividedByZero
 from bondgraph.field.sparse import Contradiction
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
@@ -131,52 +132,6 @@ def test_a_fault_that_shows_in_a_narrow_range_of_large_numbers_is_seen(seed: int
     assert set(c.signatures.signature("r1")) == {"ps", "p0", "k", "V", "u", "m"}
 
 
-def test_a_relation_rests_on_no_more_than_says_too_much_about_what_it_is_told() -> None:
-    # the ammeters, and what ties them together: neither the source nor the chain that they pump
-    lines = ["model M { param R = 2", "  1:a { <- Se:U; -> R:R; -> Df:y; -> Df:z }"]
-    lines += [f"  0:n{k} {{ -> C:c{k} = 1; -> R:r{k} = 2 }}" for k in range(8)]
-    lines += [f"  n{k} -> 1:w{k} -> n{k + 1}\n  w{k} -> R:b{k} = 3" for k in range(7)]
-    c = compiled("\n".join([*lines, "  Sf:pump = 2*a.f\n  pump -> n0\n  n7 -> De:x }"]))
-    every = c._analysis[0].residuals
-    twins = next(r for r in every if {"y", "z"} == set(map(str, symbols(r.expr))))
-    cone = Plant(c.graph).cone(twins.expr)
-    assert not (cone.laws or cone.rates or cone.balances)
-    assert {name for name, _, _ in cone.shown} == {"y", "z"}
-    assert not set(c.signatures.signature(twins.name)) & {"U", "R"}
-
-
-def test_a_fault_behind_what_a_relation_is_told_is_outside_its_cone() -> None:
-    cells = [f"n{k - 1} -> 1:s{k} -> 0:n{k}\ns{k} {{ -> R:R{k} = p{k}; -> I:L{k} = 1 }}\n"
-             f"n{k} {{ -> C:C{k} = 1; -> De:y{k} }}" for k in range(1, 5)]  # fmt: skip
-    params = "; ".join(f"param p{k} = {k}" for k in range(1, 5))
-    c = compiled(f"model M {{ {params}\nSe:U -> 0:n0\n" + "\n".join(cells) + "}")
-    plant = Plant(c.graph)
-    for residual in c._analysis[0].residuals:
-        cone = plant.reached(plant.cone(residual.expr))
-        inside = {f for f, s in c.graph.fault_symbols().items() if s in cone}
-        seen = c.signatures.signature(residual.name)
-        assert set(seen) <= inside
-        assert min(inside & {"p1", "p2", "p3", "p4"}) in seen
-
-
-def test_a_part_has_every_signal_that_its_relation_is_told() -> None:
-    # an input that only an integral holds belongs to no node: left out, it would be told as zero
-    lines = ["model M { param R = 2; input u; let h = int(u)"]
-    lines += ["  1:a { <- Se:E = h; -> R:R; -> Df:y }"]
-    lines += [f"  0:n{k} {{ -> C:c{k} = 1; -> R:r{k} = 2 }}" for k in range(8)]
-    lines += [f"  n{k} -> 1:w{k} -> n{k + 1}\n  w{k} -> R:b{k} = 3" for k in range(7)]
-    c = compiled("\n".join([*lines, "  Sf:pump = 2*a.f\n  pump -> n0\n  n7 -> De:x }"]))
-    plant = Plant(c.graph)
-    place, parts = plant.assembly.place, 0
-    for residual in c._analysis[0].residuals:
-        told = {s for s in symbols(residual.expr) if s in place}
-        cone = plant.cone(residual.expr)
-        assert told <= set(cone.place)
-        parts += cone.count_of < plant.assembly.count_of
-    assert parts
-    assert {"u", "R", "y"} <= set(c.signatures.signature("r1"))
-
-
 def test_machines_that_are_alike_begin_differently(monkeypatch: pytest.MonkeyPatch) -> None:
     """Wires of one resistance feed equal motors, of which most relations compare two.
 
@@ -197,19 +152,19 @@ def test_machines_that_are_alike_begin_differently(monkeypatch: pytest.MonkeyPat
 def test_where_a_law_is_left_out_nothing_is_proved(monkeypatch: pytest.MonkeyPatch) -> None:
     law = "{ e = k*exp(f) }"
     graph = compiled(f"model M {{ param k = 2\n 1:j {{ <- Se:u; -> R:r {law}; -> Df:y }} }}").graph
-    plant, draw = Plant(graph), Plant.draw
+    plant, draw = Plant(graph), Draws.trajectory
     node = next(n for n, node in enumerate(graph.nodes) if node.path == "r")
     tried: list[bool] = []
 
-    def only_without_the_law(self: Plant, *args: Any, **options: Any) -> Trajectory:
+    def only_without_the_law(self: Draws, *args: Any, **options: Any) -> Trajectory:
         tried.append(options["still"])
         if any(own == node for own, _ in args[5].laws):
             raise Contradiction(0, node)
         return draw(self, *args, **options)
 
-    monkeypatch.setattr(Plant, "draw", only_without_the_law)
+    monkeypatch.setattr(Draws, "trajectory", only_without_the_law)
     first = plant.trajectory(1, 2)
-    assert len(first.part.laws) == len(plant.assembly.laws) - 1
+    assert len(first.part.laws) == len(plant.structure.assembly.laws) - 1
     moving = tried.count(False)
     assert moving == ATTEMPTS
     second = plant.trajectory(2, 2)  # what failed for the first one is not tried again

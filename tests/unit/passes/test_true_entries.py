@@ -244,7 +244,7 @@ def test_what_overflows_only_beyond_a_limit_is_not_held_at_its_start(rate: str, 
         "param R = 1; param k = 2\n  input u\n  Se:u -> 1:n { -> R:R; -> Df:i }\n"
         f"  let h = int({rate})\n  sensor y = k*sin(h) + n.f"
     )
-    assert not from_start(Plant(c.graph), seed).held
+    assert not from_start(Plant(c.graph), seed).structure.held
     assert "k" in the_one_with(c.signatures, "y")
 
 

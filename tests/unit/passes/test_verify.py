@@ -103,7 +103,8 @@ def test_a_model_without_residuals_has_nothing_to_verify() -> None:
 
 
 def test_what_cannot_be_simulated_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    from bondgraph.exact.plant import ExactUnavailable, Plant
+    from bondgraph.exact.plant import Plant
+    from bondgraph.exact.trajectory import ExactUnavailable
 
     def refuse(*_: object, **__: object) -> None:
         raise ExactUnavailable("its laws hold a riddle")
