@@ -21,6 +21,7 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 _OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
 _QUIET = 2  # rows, at least: what moves through zero is quiet in one
 _STILL = 8  # rows at least that no alarm would be given in, until it is over for that alone
+_OUT = 3.0  # deviations that noise by itself hardly reaches
 _LEAST = 0.5  # deviations, of averages or rows: a fault that does less is not seen
 
 
@@ -35,12 +36,13 @@ class Detection:
     together, are those of a healthy machine as that each goes on as it has been while it was out,
     normal with that mean and deviation (Wald, 1945), and none speaks against it: two rows for a
     large fault, some more for a small one. Where it is known what fault it is, it goes on as that
-    fault does in each row, as well as laws are known. So a row tells nothing in which it would not
-    show, as where it acts in a part of a motion only. When no alarm would be given for long, it is
-    over nevertheless: what a fault does may be as noisy as its residual, and explain noise. A row
-    in which one is as far out as an alarm takes speaks against an end, however it was before: it
-    may swing. A fault that comes and goes is not told each time: what comes back soon has to be
-    away for twice as long the next time, for so many rows at most as a `pause` has.
+    fault does in each row, as well as laws are known, if it is what most of the rows were out by so
+    far. So a row tells nothing in which it would not show, as where it acts in a part of a motion
+    only. When no alarm would be given for long, it is over nevertheless: what a fault does may be
+    as noisy as its residual, and explain noise. A row in which one is as far out as an alarm takes
+    speaks against an end, however it was before: it may swing. A fault that comes and goes is not
+    told each time: what comes back soon has to be away for twice as long the next time, for so many
+    rows at most as a `pause` has.
     """
 
     def __init__(
@@ -72,9 +74,10 @@ class Detection:
         self._streak = np.zeros(len(self._names), dtype=int)
         self._cusum.restart()
         self.scores.restart()
-        # of rows of this alarm, and of their averages: 1, excess, squares
-        self._sum = np.zeros((6, len(self._names)))
-        self._held = np.zeros((6, len(self._names)))  # the same of rows since they are quiet
+        # of rows of this alarm, and of their averages: 1, excess, squares; and how many more of
+        # those that were out are explained by the fault that is known than are not
+        self._sum = np.zeros((7, len(self._names)))
+        self._held = np.zeros((7, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
         self._quiet = 0  # rows that nothing speaks against an end in
         self._still = 0  # rows that no alarm would be given in
@@ -164,7 +167,7 @@ class Detection:
 
     def reconsider(self) -> None:
         """What quiet rows have told of the end of a fault was told without knowing the fault."""
-        self._healthy[:] = 0.0
+        self._healthy[:] = self._sum[6] = self._held[6] = 0.0
         self._quiet = 0
 
     def over(
@@ -174,24 +177,26 @@ class Detection:
 
         `moves` says by how much the fault would move each residual now if it was still there, where
         that is known (NaN where not), and the averages of this row and of LAGS before: where it
-        would not, a residual is quiet for no reason. It is asked while one speaks for an end.
+        would not, a residual is quiet for no reason.
         """
         seen = row.valid & self.fired & np.isfinite(limits[:, 0])  # others tell nothing
         excess = np.where(seen, _excess(row.value, row.bound, limits[:, 0]), 0.0)
         loud = np.abs(excess) > 1.0
         more = np.where(seen & (self._sum[0] > 0), self._more(excess, limits[:, 5]), 0.0)
-        moved = moves() if (seen & (~loud | (more > 0.0))).any() else None
+        moved = moves() if seen.any() else None
         if moved is not None:
+            named = np.isfinite(moved.last) & (self._sum[6] >= 0.0)
+            self._held[6] += _explained(moved.last, row, excess, limits[:, 0])
             without, tells = self._without(moved, row, limits)
-            seen &= tells | loud
-            more = np.where(seen, np.where(np.isnan(moved.last), more, without), 0.0)
+            seen &= tells | loud | ~named
+            more = np.where(seen, np.where(named, without, more), 0.0)
         # few rows do not tell how it goes on: what was out by 5 is no more healthy at -80
         more = np.where(np.abs(excess) > limits[:, 2], -np.inf, more)
         self._healthy = np.maximum(self._healthy + more, 0.0)
         # what is quiet now is no part of how far out it was, until it is out again
         one, lasting = np.ones_like(excess), self._cusum.excess
         known = np.where(np.isfinite(lasting), [one, lasting, lasting**2], 0.0)
-        self._held += np.where(seen, [one, excess, excess**2, *known], 0.0)
+        self._held[:6] += np.where(seen, [one, excess, excess**2, *known], 0.0)
         out = self._healthy <= 0.0
         self._sum += np.where(out, self._held, 0.0)
         self._held[:, out] = 0.0
@@ -214,7 +219,6 @@ class Detection:
         whole = added(moved.means[-1:], moved.means[-2::-1, None], limits)[0]
         average, shows = _without(whole, self._cusum.lasting[0], self._cusum.lasting[1], unit)
         use = ~tells & shows & np.isfinite(average)
-        tells = tells | np.isnan(moved.last)
         return np.where(use, average, more / memory), tells | use
 
     def _more(self, excess: Array, memory: Array) -> Array:
@@ -224,7 +228,7 @@ class Detection:
         """
         lasting = self._cusum.excess
         rows, shows = _gone(self._sum[:3], excess, 1.0)
-        averages, better = _gone(self._sum[3:], lasting, _LEAST)
+        averages, better = _gone(self._sum[3:6], lasting, _LEAST)
         use = np.isfinite(lasting) & (self._sum[3] > 0) & (better > shows / memory)
         return np.asarray(np.where(use, averages / 2.0, rows / (2.0 * memory)))
 
@@ -266,6 +270,13 @@ def _excess(value: Array, bound: Array, sigma: Array) -> Array:
     """By how many deviations values are beyond what is to be expected, on their side."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(np.sign(value) * np.maximum(np.abs(value) - bound, 0.0) / sigma)
+
+
+def _explained(moved: Array, row: Row, excess: Array, sigma: Array) -> Array:
+    """Of residuals that are out, 1 where a fault that moves them so explains most of it, or -1."""
+    left = _excess(row.value - moved, row.bound, sigma)
+    said = np.where(np.abs(left) <= 0.5 * np.abs(excess), 1.0, -1.0)
+    return np.where((np.abs(excess) > _OUT) & np.isfinite(left), said, 0.0)
 
 
 def _without(moved: Array, value: Array, bound: Array, sigma: Array) -> tuple[Array, Mask]:

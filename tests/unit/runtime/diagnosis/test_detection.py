@@ -194,6 +194,22 @@ def test_rows_in_which_the_fault_would_not_show_do_not_tell_that_it_is_over() ->
     assert 20 < _quiet(other, moves=np.zeros(2)) < 60, "but it does not last for ever"
 
 
+@pytest.mark.parametrize("right", [True, False])
+def test_a_fault_is_asked_only_if_it_tells_the_rows_of_the_alarm(right: bool) -> None:
+    """Out by 20 to either side in each second row: what is named makes that, or nothing at all.
+
+    Then all is quiet, and what is named would show nothing of itself: it is at rest, or wrong.
+    """
+    detection = Detection(["r1", "r2"], 3)
+    _alarm(detection, 20.0)
+    for k in range(60):
+        size = (20.0, 0.0, -20.0, 0.0)[k % 4]
+        fault = np.full(2, size if right else 0.1)
+        assert not detection.over(_row(size, size), _LIMITS, lambda f=fault: _moves(f))
+    quiet = _quiet(detection, moves=np.full(2, 0.1))
+    assert quiet > 20 if right else quiet < 20, quiet
+
+
 def test_what_the_fault_makes_of_a_row_is_no_end_of_it() -> None:
     """It moves a residual by 20, then by less and to the other side, as a motion goes."""
     for now in (2.0, -2.0, -20.0):
