@@ -11,7 +11,9 @@ from bondgraph.cli import monitor
 from bondgraph.cli.log_options import note, operating_of
 from bondgraph.cli.options import (
     announced,
+    fitted_bandwidth,
     isolating,
+    numbers_again,
     positive,
     realised,
     realising,
@@ -94,6 +96,7 @@ def _serve(args: Namespace, made: Any) -> int:
     import asyncio
 
     from bondgraph.backends.live_page import live
+    from bondgraph.runtime.diagnosis.tuning import FASTEST
     from bondgraph.runtime.live.audience import Audience
     from bondgraph.runtime.live.server import address_of, serve, token_for
     from bondgraph.runtime.live.session import Session
@@ -104,7 +107,9 @@ def _serve(args: Namespace, made: Any) -> int:
     scenario = compilation.scenario(args.scenario) if args.scenario else Scenario("live")
     if rate is None:
         rate = scenario.sampling.rate if args.scenario else Options().rate
-    compilation = compilation.with_options(rate=rate, bandwidth=args.bandwidth)
+    fitted = fitted_bandwidth(args, compilation)
+    bandwidth = args.bandwidth or (min(fitted, FASTEST * rate) if fitted and not tuning else None)
+    compilation = compilation.with_options(rate=rate, bandwidth=bandwidth)
     if args.scenario:  # read for this one: its expressions belong to the graph of the model
         scenario = compilation.scenario(args.scenario)
     try:
@@ -191,7 +196,8 @@ def _robot(args: Namespace) -> Any:
     from bondgraph.runtime.live.samples import Simulated
 
     words = [sys.executable, "-m", "bondgraph", "simulate", args.model, args.scenario]
-    return Simulated([*words, "--stream", "--speed", "inf"], "simulated machine")
+    words += [*numbers_again(args), "--stream", "--speed", "inf"]
+    return Simulated(words, "simulated machine")
 
 
 def _machine(args: Namespace, compilation: Compilation) -> Machine:

@@ -232,6 +232,20 @@ def numbered(parser: ArgumentParser) -> None:
                         " may be repeated")  # fmt: skip
 
 
+def numbers_again(args: Namespace) -> list[str]:
+    """`--parameters` and `--set` as words of another command.
+
+    >>> numbers_again(Namespace(parameters=None, set=[setting("R=1.2 kOhm"), setting("L=2")]))
+    ['--set', 'R=1.2 kOhm', '--set', 'L=2.0']
+    """
+    import tomllib
+
+    found = ["--parameters", args.parameters] if args.parameters else []
+    for name, value in args.set:
+        found += ["--set", f"{name}={tomllib.loads(f'is = {value}')['is']}"]
+    return found
+
+
 def model_of(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
     """The model of a command with `--parameters` and `--set`, which goes before the file."""
     from bondgraph.frontend.read import read

@@ -10,7 +10,7 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -20,6 +20,7 @@ from aiohttp.test_utils import TestClient, TestServer
 from bondgraph.cli import live as command
 from bondgraph.cli import usage
 from bondgraph.cli.main import main
+from bondgraph.cli.options import model_of
 from bondgraph.runtime.live.audience import talk
 from bondgraph.runtime.live.hub import Hub
 from bondgraph.runtime.live.samples import Simulated
@@ -228,6 +229,24 @@ def test_a_machine_whose_process_dies(tmp_path: Path) -> None:
         watched.wait(("type", "frame"))  # it has been started again
     finally:
         watched.stop()
+
+
+def test_the_simulated_machine_has_the_numbers_of_the_watch(tmp_path: Path) -> None:
+    """1 V over a resistor of 4 ohm, which is 2 ohm in the model, and then 1 ohm in a file."""
+    model, scenario, file = (tmp_path / name for name in ("r.bg", "r.toml", "numbers.toml"))
+    model.write_text("bg 1\nmodel M { param R = 2 Ohm; 1:i { <- Se:U; -> R:R; -> Df:y } }\n")
+    scenario.write_text('duration = "50 ms"\n[inputs]\nU = 1\n')
+    file.write_text("[parameters]\nR = 1\n")
+    for words, current in ((["--set", "R=4000 mOhm"], 0.25), (["--parameters", str(file)], 1.0)):
+        args = usage.parser_for("live").parse_args(["live", str(model), str(scenario), *words])
+        made = command.setup_of(args, model_of(args), model_of(args).scenario(scenario))
+        source = made.source()
+        try:
+            logs = (c.log for c in source.chunks(Event()) if c.log is not None and c.log.rows)
+            first = next(logs)  # it goes on for as long as it is heard
+        finally:
+            source.close()
+        assert first.columns["y"][-1] == pytest.approx(current)
 
 
 def test_a_machine_that_never_says_anything(tmp_path: Path) -> None:
