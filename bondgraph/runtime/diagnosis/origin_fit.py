@@ -159,10 +159,15 @@ class _Trial:
         return len(self._ends) > 0
 
     def values(self, change: Array) -> Array:
-        """The residuals, (rows, own), when the start is changed by that much."""
+        """The residuals, (rows, own), when the start is changed by that much; NaN where that cannot
+        be.
+        """
         first, own = self._case.told(self._case.start + change)
         if own != self._told:  # a new engine takes longer than one that forgets
-            self._engine, self._told = self._case.engine.configured(own, bounds=False), own
+            try:
+                self._engine, self._told = self._case.engine.configured(own, bounds=False), own
+            except ValueError:  # outside of where its laws are defined
+                return np.full((len(self._ends), len(self._own)), math.nan)
         engine = self._engine
         engine.reset()
         engine.run(first)

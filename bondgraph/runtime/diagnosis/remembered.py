@@ -48,7 +48,10 @@ def memories(graph: BondGraph, residuals: ResidualSet, program: Program) -> tupl
     """
     found = _memories(program)
     given = {p.path for p in program.params}
-    own = {v.symbol: v.name for v in graph.values if not v.fault and v.name in given}
+    law = [n.symbol for n in symbols(*(r.expr for r in residuals.residuals))]
+    read = behind(graph, [s for s in law if s.kind is not Kind.INITIAL])  # not as starts alone
+    own = {v.symbol: v.name for v in graph.values
+           if not v.fault and v.name in given and v.symbol.symbol not in read}  # fmt: skip
     reads = {i.name: _starts(graph, own, r.expr, bool(i.follows))
              for r, i in zip(residuals.residuals, program.residuals, strict=True)}  # fmt: skip
     each = [frozenset[str]().union(*[reads.pop(r) for r in m.residuals]) for m in found]

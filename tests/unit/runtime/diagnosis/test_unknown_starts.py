@@ -57,6 +57,32 @@ def said(c: Compilation, begins: float, fault: float = 0.0) -> tuple[str, tuple[
 
 
 @pytest.mark.parametrize("begins", _BEGAN.values())
+@pytest.mark.parametrize("q0", ["s*Q", "10 C*(log(s) + 1.693)"])
+def test_a_start_may_be_made_of_what_laws_read_and_not_be_defined_everywhere(
+    q0: str, begins: float
+) -> None:
+    """The capacity is a constant of the law, too, and no start; a logarithm has no value below 0.
+
+    A watch ended with a ValueError of either.
+    """
+    c = bondgraph.compile(
+        text=f"""bg 1
+model Cell {{
+    const Q = 20 C
+    param R = 0.5 Ohm +- 5%
+    param s = 0.5 +- 50%
+    0:t {{ <- Sf:I; -> De:V; -> 1:c }}
+    c {{ -> C:s(q0 = {q0}) {{ e = 4*q/Q + 4*(q/Q)^2 }}; -> R:R }}
+}}""",
+        rate=_RATE,
+    )
+    assert [m.unknown for m in c.diagnosis_model.memories] == [("s",)]
+    message, named = said(c, begins)
+    assert "watched from now on" in message and "does not stand at zero" not in message, message
+    assert named == ()
+
+
+@pytest.mark.parametrize("begins", _BEGAN.values())
 def test_a_watch_waits_until_the_samples_tell_it(begins: float) -> None:
     text, named = said(cell(), begins)
     assert "r1 waits until the machine has shown by its motion what q0 is" in text
