@@ -12,7 +12,7 @@ runs over the log and over the log with as much noise once more.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -118,6 +118,7 @@ class ErrorsInVariables:
         self.names = (*self._free, *free.offsets)
         biased = runs.names(runs.biased)
         self._offset_at = [biased.index(n) for n in free.offsets]
+        self._late_at = [runs.biased.index(k) for k in runs.late]
         self._sizes = runs.sizes(runs.biased)
         declared = [runs.declared(n) for n in self._free]
         known = [runs.engine.signals[runs.biased[k]].offset for k in self._offset_at]
@@ -160,9 +161,8 @@ class ErrorsInVariables:
         nothing = np.zeros(self.size)
         values = [self._numbers(nothing), *[{self._free[k]: 1.0} for k in zeros]]
         small = {n: _STEP * values[0][n] for n in self._free[: self._shared]}
-        still = np.zeros((len(values) + 1, len(self._runs.late) + len(self._runs.biased)))
-        late, off = np.split(still, [len(self._runs.late)], axis=1)
-        clean, added = self._runs.rows([*values, small], late, off)
+        still = np.zeros((len(values) + 1, len(self._runs.biased)))
+        clean, added = self._runs.rows([*values, small], still, still)
         rough = np.sqrt(np.nanmean(added[0] ** 2, axis=0))
         # the least variance that is reckoned with: sensors that never move tell no noise
         self._least = (1e-12 * rms(clean[0]) + 1e-150) ** 2
@@ -212,17 +212,21 @@ class ErrorsInVariables:
         found[self._offset_at] = (self.values(at) - self.nominal)[len(self._free) :]
         return found
 
-    def _rows(self, points: Sequence[Array], more: Array | None = None) -> tuple[Array, Array]:
-        """Rows at points, with further offsets (points, signals)."""
-        delays = np.array([p[len(self.names) :] for p in points])
-        offsets = np.array([self._offsets(p) for p in points])
-        if more is not None:
-            offsets += more
+    def _delays(self, at: Array) -> Array:
+        """The delays of all signals that can have one at a point, in samples."""
+        found = np.zeros(len(self._runs.biased))
+        found[self._late_at] = at[len(self.names) :]
+        return found
+
+    def _rows(self, points: Sequence[Array], more: Array | float = 0.0) -> tuple[Array, Array]:
+        """Rows at points, with further delays and offsets (2, points, signals)."""
+        own = [[self._delays(p) for p in points], [self._offsets(p) for p in points]]
+        delays, offsets = np.array(own) + more
         clean, added = self._runs.rows([self._numbers(p) for p in points], delays, offsets)
         return clean - self._bent, added
 
     def _white(
-        self, points: Sequence[Array], more: Array | None = None
+        self, points: Sequence[Array], more: Array | float = 0.0
     ) -> tuple[Array, Array, Array, Array]:
         """Normalised residuals and added noise at points, their variances, the noise's own.
 
@@ -238,7 +242,7 @@ class ErrorsInVariables:
         return value / root / self._weight, extra / root, whole, noise
 
     def _normal(
-        self, points: Sequence[Array], more: Array | None = None
+        self, points: Sequence[Array], more: Array | float = 0.0
     ) -> tuple[Array, Array, Array, Array]:
         """See `_white`: zero in rows that are not valid at one of the points."""
         value, extra, whole, noise = self._white(points, more)
@@ -308,8 +312,7 @@ class ErrorsInVariables:
         nothing of, so that noise drowns what the model is off by. What noise moves residuals by to
         one side is taken off as it is here.
         """
-        late = at[len(self.names) :]
-        self._bent = self._runs.bent(self._numbers(at), late, self._offsets(at))
+        self._bent = self._runs.bent(self._numbers(at), self._delays(at), self._offsets(at))
         if not first:
             clean, added = self._rows([at])
             self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)
@@ -432,35 +435,58 @@ class ErrorsInVariables:
         return np.asarray(np.where(many > 1, np.abs(mean) + further, math.inf))
 
     def suspects(self, at: Array, units: Mapping[str, str]) -> tuple[Suspect, ...]:
-        """The offsets that would explain what is left, each by itself, the most likely one first.
-
-        A test of scores: how much the sum of squares falls with an offset if all that is fitted
-        follows, beside how much this scatters with what is left as it is, correlated or not.
-        """
+        """The offsets that would explain what is left, each by itself, the likeliest one first."""
         wanted = [k for k in range(len(self._sizes)) if k not in self._offset_at]
-        if not wanted:
-            return ()
-        s = self._slopes(at)
-        steps = _STEP * np.diag(self._sizes)[wanted]
-        moved = self._normal([at] * (2 * len(wanted)), np.vstack([steps, -steps]))[0]
-        apart = (moved[: len(wanted)] - moved[len(wanted) :]) / (2 * _STEP)
-        by = s.by.reshape(len(at), -1)
-        inverse = _inverse(by @ by.T + self._pins.T @ self._pins, self._spread)
         found = []
-        for k, slope in zip(wanted, apart, strict=True):
-            follow = inverse @ (by @ slope.ravel())
+        for k, value, error, share in self._scored(at, wanted, np.diag(self._sizes), 1):
+            if share > _MATTERS:
+                name, size = self._runs.names([self._runs.biased[k]])[0], float(self._sizes[k])
+                found.append(
+                    Suspect(name, value * size, error * size, units.get(name, ""), share)
+                )
+        return tuple(sorted(found, key=lambda one: -one.share))
+
+    def delayed(self, at: Array) -> list[int]:
+        """The columns of commands that come early or late, as logs show, and are not fitted so."""
+        signals = self._runs.biased
+        wanted = [k for k, column in enumerate(signals)
+                  if column in self._runs.commands and k not in self._late_at]  # fmt: skip
+        return [signals[k] for k, *_ in self._scored(at, wanted, np.eye(len(signals)), 0)]
+
+    def _scored(
+        self, at: Array, wanted: Sequence[int], sizes: Array, which: int
+    ) -> Iterator[tuple[int, float, float, float]]:
+        """Of `wanted` signals those whose delay (`which` 0) or offset (1) would explain what is
+        left: the number, its value, error and share.
+
+        A test of scores: how much the sum of squares falls with it if all that is fitted follows,
+        beside how much this scatters with what is left as it is, correlated or not. What noise that
+        is in slopes and in what is left makes of it is taken off. One of each is a row of `sizes`,
+        (signals, signals).
+        """
+        if not wanted:
+            return
+        s = self._slopes(at)
+        more = np.zeros((2, 2 * len(wanted), len(sizes)))
+        more[which] = np.vstack([_STEP * sizes[wanted], -_STEP * sizes[wanted]])
+        moved = self._normal([at] * (2 * len(wanted)), more)[:2]
+        apart = [(m[: len(wanted)] - m[len(wanted) :]) / (2 * _STEP) for m in moved]
+        by, noisy = s.by.reshape(len(at), -1), s.added_by.reshape(len(at), -1)
+        curved = by @ by.T - noisy @ noisy.T + self._pins.T @ self._pins
+        inverse = _inverse(curved, self._spread)
+        for k, slope, shaken in zip(wanted, *apart, strict=True):
+            follow = inverse @ (by @ slope.ravel() - noisy @ shaken.ravel())
             alone = slope - np.tensordot(follow, s.by, 1)
-            energy = float(np.sum(alone**2))
+            noise = shaken - np.tensordot(follow, s.added_by, 1)
+            energy = float(np.sum(alone**2) - np.sum(noise**2))
             if energy <= _BLIND * float(np.sum(slope**2)):
                 continue
-            score = float(np.sum(alone * s.value))
-            scatter = float(newey_west((alone * s.value).sum(axis=1)[:, None])[0, 0])
+            scores = (alone * s.value).sum(axis=1), (noise * s.added).sum(axis=1)
+            score = float(np.sum(scores[0]) - np.sum(scores[1]))
+            scatter = float(sum(newey_west(x[:, None])[0, 0] for x in scores))
             share = score**2 / energy / max(float(np.sum(s.value**2)), 1e-300)
-            if score**2 > chdtri(1, _RARE / len(wanted)) * scatter and share > _MATTERS:
-                name, size = self._runs.names([self._runs.biased[k]])[0], float(self._sizes[k])
-                value, error = -score / energy * size, math.sqrt(scatter) / energy * size
-                found.append(Suspect(name, value, error, units.get(name, ""), share))
-        return tuple(sorted(found, key=lambda one: -one.share))
+            if score**2 > chdtri(1, _RARE / len(wanted)) * scatter:
+                yield k, -score / energy, math.sqrt(scatter) / energy, share
 
     def left(self, at: Array) -> tuple[Left, ...]:
         """What is left of every residual at a point, beside what there was."""

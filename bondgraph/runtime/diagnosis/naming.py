@@ -9,7 +9,7 @@ from typing import Any
 from bondgraph.ir.signature_matrix import DoubleFaults
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, probabilities
-from bondgraph.runtime.diagnosis.possible import SHOWN, explains
+from bondgraph.runtime.diagnosis.possible import SHOWN, changed, explains
 from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo
 from bondgraph.runtime.monitoring.verdict import (
     Candidate,
@@ -265,8 +265,4 @@ def candidate(explained: Explained, chance: float) -> Candidate:
 
 def _size(hypothesis: Hypothesis, change: float) -> tuple[float, str]:
     """The change of the machine, or of the sensor, with its unit."""
-    size = -change if hypothesis.turned else change
-    if hypothesis.kind == "gain" and not hypothesis.turned:
-        left = 1.0 - size  # told is true/left: nothing is left of what is told for no reason
-        size = size / left if abs(left) > 1e-3 else math.copysign(1e3, left)
-    return hypothesis.told(size)
+    return hypothesis.told(changed(hypothesis, change))

@@ -55,11 +55,14 @@ def fit(
     seen = {**estimated_noise(engine, [p.samples for _, p in pieces]), **noise}
     runs = ResidualRows(engine, pieces, [seen[k.path] for k in engine.signals], model.memories)
     problem = ErrorsInVariables(runs, free, tolerances, model.reads)
-    at = np.zeros(problem.size)
-    for k in range(_ROUNDS):
-        problem.weigh(at, first=k < _FIRST)
-        at = problem.solve(at, _STEPS)
-        progress((k + 1) / (_ROUNDS + 1))
+    at = _solved(problem, np.zeros(problem.size), progress)
+    if delayed := problem.delayed(at):
+        fitted = len(problem.names)
+        late = dict(zip(runs.late, at[fitted:].tolist(), strict=True))
+        runs.late = sorted({*runs.late, *delayed})
+        problem = ErrorsInVariables(runs, free, tolerances, model.reads)
+        at = np.append(at[:fitted], [late.get(k, 0.0) for k in runs.late])
+        at = _solved(problem, at, progress)
     names = problem.names
     count = len(names)
     at, whole, null, asked = _declared(problem, at)
@@ -86,11 +89,10 @@ def fit(
         )
         for k, name in enumerate(names)
     )  # fmt: skip
-    late = at[count:]
     called = [*names[: count - len(free.offsets)], *(f"offset of {n}" for n in free.offsets)]
     zeros = np.where(problem.zeros, problem.scale, 0.0)
     found = combinations(
-        called, values, problem.scale, zeros, null, partial(problem.cost, late),
+        called, values, problem.scale, zeros, null, partial(problem.cost, at[count:]),
         partial(_more, asked[:count, :count]),
     )  # fmt: skip
     suspects = problem.suspects(at, units)
@@ -100,7 +102,7 @@ def fit(
     delays = tuple(
         Delay(name, d * time, math.sqrt(max(v, 0.0)) * time, abs(d) > _AT_BOUND * LATEST)
         for name, d, v in zip(
-            runs.names(runs.late), late.tolist(), np.diag(whole)[count:].tolist(), strict=True
+            runs.names(runs.late), at[count:].tolist(), np.diag(whole)[count:].tolist(), strict=True
         )
     )
     split, more = len(free.parameters), len(free.parameters) + len(runs.starts)
@@ -115,6 +117,15 @@ def fit(
         covariance / np.outer(apart, apart), problem.terms(at), engine.bandwidth,
         spread, len({name for name, _ in pieces}),
     )  # fmt: skip
+
+
+def _solved(problem: ErrorsInVariables, at: Array, progress: Callable[[float], None]) -> Array:
+    """Weights from what is left, and parameters from weights, some times."""
+    for k in range(_ROUNDS):
+        problem.weigh(at, first=k < _FIRST)
+        at = problem.solve(at, _STEPS)
+        progress((k + 1) / (_ROUNDS + 1))
+    return at
 
 
 def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Array, Array]:

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from scipy.special import log_ndtr
 
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
 from bondgraph.runtime.diagnosis.rows import CORRELATED
 
@@ -48,6 +49,20 @@ def possible(explained: Explained, nominal: float | None, sign: int | None = Non
     left = deviation * _mean_above(-value / deviation) if deviation > 0.0 else 0.0
     change += side * (value - left)
     return explained._replace(evidence=explained.evidence + less, change=change)
+
+
+def changed(hypothesis: Hypothesis, change: float) -> float:
+    """The change of the machine, or of what a sensor reads, where residuals tell such a one.
+
+    >>> sensor, supply = (Hypothesis(n, "gain", "", 0.3, n == "U") for n in ("speed", "U"))
+    >>> changed(sensor, 0.5), changed(supply, 0.5)
+    (1.0, -0.5)
+    """
+    size = -change if hypothesis.turned else change
+    if hypothesis.kind != "gain" or hypothesis.turned:
+        return size
+    left = 1.0 - size  # told is true/left: nothing is left of what is told for no reason
+    return size / left if abs(left) > 1e-3 else math.copysign(1e3, left)
 
 
 def _mean_above(z: float) -> float:

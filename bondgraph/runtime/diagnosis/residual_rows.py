@@ -79,11 +79,18 @@ class ResidualRows:
                 f"the logs are too short to fit parameters: give one of {need:.3g} s or more"
             )
         self.seconds = rows * self.every * time
+        #: Inputs without noise, by their columns: nobody has measured them.
+        self.commands = [
+            at for at, (known, sigma) in enumerate(zip(engine.signals, noise, strict=True))
+            if known.kind == "input" and known.counts is None and not sigma
+        ]  # fmt: skip
+        #: The signals whose delay is fitted: others may be added.
         self.late = [
             at for at, known in enumerate(engine.signals)
             if known.kind in ("input", "sensor") and known.counts is None
             and any(
                 _jumps(p[self.skip * self.every :, at], known.kind == "sensor")
+                or (at in self.commands and _held(p[self.skip * self.every :, at]))
                 for p in self.pieces
             )
         ]  # fmt: skip
@@ -150,9 +157,9 @@ class ResidualRows:
         """Residuals and what noise adds to them, both (sets of parameters, rows, residuals).
 
         Among the parameters of a set are the `starts`, by what they are called there.
-        `delays` (sets, signals in `late`) in samples, `offsets` (sets, signals in `biased`) in the
-        units of these, of which logs are cleared. NaN where a residual is not valid, and in one row
-        behind every log.
+        `delays` (sets, signals in `biased`) in samples and `offsets`, in the units of these, are
+        what logs are cleared of. NaN where a residual is not valid, and in one row behind every
+        log.
         """
         return self._added(parameters, delays, offsets, self._shaken)
 
@@ -180,8 +187,8 @@ class ResidualRows:
         for group in {tuple(row): None for row in moved.tolist()}:
             members = np.flatnonzero((moved == group).all(axis=1)).tolist()
             own = [parameters[k] for k in members]
-            late = dict(zip(self.late, group, strict=False))
-            off = dict(zip(self.biased, group[len(self.late) :], strict=True))
+            late = dict(zip(self.biased, group, strict=False))
+            off = dict(zip(self.biased, group[len(self.biased) :], strict=True))
             both = zip(*self._together(own, late, off, noisy), strict=True)
             for k, one in zip(members, both, strict=True):
                 found[k] = one
@@ -296,6 +303,19 @@ def _jumps(values: Array, read: bool = False) -> bool:
     return bool((np.abs(inside[lasts]) > _JUMP * max(usual, rounding)).any())
 
 
+def _held(values: Array) -> bool:
+    """Whether a signal moves anew at each sample, as what a controller gives and holds.
+
+    What it was tells more of the next sample than the line through the last two.
+
+    >>> draw = np.random.default_rng(1).standard_normal(1000)
+    >>> _held(draw), _held(np.cumsum(draw)), _held(np.sin(0.3 * np.arange(1000)))
+    (True, True, False)
+    """
+    steps = np.diff(values)
+    return bool(np.nansum(np.diff(steps) ** 2) > np.nansum(steps**2))
+
+
 def _moved(samples: Array, late: Mapping[int, float], off: Mapping[int, float]) -> Array:
     """The samples with some columns so many samples late, about one at most, and without offsets.
 
@@ -306,6 +326,8 @@ def _moved(samples: Array, late: Mapping[int, float], off: Mapping[int, float]) 
         return samples
     found = samples.copy()
     for at, delay in late.items():
+        if not delay:
+            continue
         found[1:, at] -= delay * np.diff(samples[:, at])
     for at, offset in off.items():
         found[:, at] -= offset

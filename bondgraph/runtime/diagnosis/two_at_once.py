@@ -29,7 +29,7 @@ from bondgraph.runtime.diagnosis.isolation import (
 )
 from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.noise import left_for_drift
-from bondgraph.runtime.diagnosis.possible import SHOWN, fits, possible
+from bondgraph.runtime.diagnosis.possible import SHOWN, changed, fits, possible
 from bondgraph.runtime.diagnosis.row_sums import Told
 from bondgraph.runtime.diagnosis.rows import CORRELATED
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
@@ -37,6 +37,7 @@ from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
 _LEADS = 8  # faults of which pairs with every other one are looked at
+_MOST = 1.1  # of a signal, by which its gain may be other beside another fault, laws being rough
 _PAIRS, _ROUNDS = 8, 4  # pairs whose sizes beside each other are looked for, and rounds of it
 
 
@@ -216,7 +217,11 @@ def pairs_that_can(
     fired: Iterable[str],
     signs: Mapping[str, int] = MappingProxyType({}),
 ) -> list[ExplainedPair]:
-    """Without the pairs that cannot be, as `candidates`: what has fired one of both has to move."""
+    """Without the pairs that cannot be, as `candidates`: what has fired one of both has to move.
+
+    Nor does a signal become more than twice what it was, or turn, while something else breaks:
+    two that nearly cancel each other would explain a little of anything.
+    """
     seen = [set(sees.get(name, ())) for name in fired]
     left = []
     for pair in found:
@@ -225,6 +230,8 @@ def pairs_that_can(
                 for h, change in zip(pair.hypotheses, pair.changes, strict=True)]  # fmt: skip
         kept = [possible(e, faults.get(e.fault), signs.get(e.fault)) for e in each]
         can = all(e.evidence == 0.0 for e in kept)
+        can &= all(abs(changed(e.hypothesis, e.change)) <= _MOST
+                   for e in kept if e.hypothesis.kind == "gain")  # fmt: skip
         if can and not any(own.isdisjoint(s) for s in seen):
             left.append(pair._replace(changes=(kept[0].change, kept[1].change)))
     return left
