@@ -70,7 +70,17 @@ class Combination(NamedTuple):
         'a log with 3 times the motion would tell, or 9 times as long'
         >>> Combination(("k",), "", ({"k": 1.0},)).which()
         'no log like these would tell: another motion may'
+
+        A common factor of all terms of a relation no motion tells. Once one of several is known
+        otherwise, the logs tell the others.
+
+        >>> Combination(("m", "k"), "", ({"m": 0.1, "k": 0.1},)).which()
+        'no log tells their common factor: declare one that is known without a tolerance'
+        >>> Combination(("R", "L"), "R/L", ({"R": 0.1, "L": 0.1},)).which()
+        'no log tells their common factor: declare one that is known without a tolerance'
         """
+        if self.more is None and len(self.parameters) > 1 and self._ratios():
+            return "no log tells their common factor: declare one that is known without a tolerance"
         if self.more is None:
             return "no log like these would tell: another motion may"
         much, long = f"{self.more:.2g} times the motion", f"{self.more**2:.2g} times as long"
