@@ -116,7 +116,9 @@ class Lookup:
                 fail(self.report, "index-missing", f"`{part.name}` is an array: which is meant?",
                      Label(part.origin), Label(named.origin, "declared here"),
                      help=f"Give an index, `{part.name}[1]`; in a chain of bonds a range, "
-                     f"`{part.name}[1..{max(named.entries, default=1)}]`.")  # fmt: skip
+                     f"`{part.name}[1..{max(named.entries, default=1)}]`; where each of several has"
+                     f" its own, `for j in 1..{max(named.entries, default=1)} {{ ... }}` with"
+                     f" `{part.name}[j]`.")  # fmt: skip
             found = named.entries.get(place)
             if found is None:
                 self.out_of_range(part, named, place)

@@ -68,7 +68,8 @@ class WatchStatus:
         silent = watched & ~self._seen
         if silent.any():
             message = f"{self.names(silent)} had no value so far: something that it reads is"
-            message += " missing, an equation has no solution, or switches turn too often"
+            message += " missing, a law or a table is left where it is not defined, an equation has"
+            message += " no solution, or switches turn too often"
             out.append(Verdict("invalid", at, message=message))
         self._begin(at, watched & self._seen, waiting, np.isfinite(noise), origins, out)
 

@@ -228,4 +228,7 @@ class ResidualStates:
 
 
 #: Why a residual has no value though all that it reads is there.
-NO_VALUE = "it has no value: an equation has no solution, or switches turn too often"
+NO_VALUE = (
+    "it has no value: a law or a table is left where it is not defined, an equation has no"
+    " solution, or switches turn too often"
+)
