@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 _FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
 _CLIMB = 2.0  # times the fastest of these, for as long as that is clearly the best
-_CLEARLY = 0.1  # of the logarithm of what shows: for less none leaves the usual filter
+_CLEARLY = 0.2  # of the logarithm of what shows: for less none leaves the usual filter
 _MORE = 1.2  # times the change that shows, above which that without a jump is told beside it
 _LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
 WINDOW = 40.0  # time constants of the default filter in which a fault has to show
@@ -255,6 +255,7 @@ def _result(compilation: Compilation, best: Tuned, found: list[Tuned]) -> dict[s
                 "unit": s.hypothesis.unit,
                 "relative": _relative(compilation, s),
                 "smooth": None if s.smooth is None else _change(s, s.smooth),
+                "many_rows": _change(s, s.course[-1]) if math.isfinite(s.course[-1]) else None,
                 "delay": s.delay,
                 "residual": s.residual or None,
                 "share": s.share,
@@ -299,7 +300,7 @@ def _lines(
         sums = f"{x.height:.1f} sigma" if x.height < NEVER.height else "never: it adds up noise"
         limits.append((name, f"{x.sigma:.3g}", level, sums))
     stray = {n: x.apart for n, x in best.tuning.limits.items() if x.apart > x.sigma}
-    rows: list[tuple[str, ...]] = [("fault", "change", "", "after", "in")]
+    rows: list[tuple[str, ...]] = [("fault", "change", "", "after", "many rows", "in")]
     hidden = []
     for shown in best.shown:
         row = _row(compilation, shown)
@@ -321,7 +322,8 @@ def _lines(
                   " where its machine stands; what is wrong from the start by no more than that is"
                   " not seen", ""]  # fmt: skip
     lines += [f"The smallest change that is sure to show within {best.window:g} s, in nine windows"
-              " of ten", *console.columns(rows)]  # fmt: skip
+              " of ten: in a sample, and at the end in the sum of many rows, if that is less",
+              *console.columns(rows)]  # fmt: skip
     never = [_name(shown) for shown in hidden if not shown.share]
     if never:
         lines += ["", "Cannot be seen: " + ", ".join(never)]
@@ -341,9 +343,13 @@ def _name(shown: Shown) -> str:
 
 def _row(compilation: Compilation, shown: Shown) -> tuple[str, ...] | None:
     """What is told of one hypothesis; None for what cannot be seen."""
-    relative = _relative(compilation, shown)
+    many = shown.course[-1]
+    in_rows = shown._replace(size=many if many < (shown.size or math.inf) / _MORE else None)
     if shown.size is None or shown.delay is None:
-        return None
+        if in_rows.size is None:
+            return None
+        return _name(shown), "", "", "", _plain(compilation, in_rows)
+    relative = _relative(compilation, shown)
     share = "" if relative is None else f"{100 * relative:.3g} %"
     change, unit = shown.hypothesis.told(shown.size)
     size = "" if unit == "%" else f"{change:.3g} {unit}".rstrip()
@@ -354,7 +360,18 @@ def _row(compilation: Compilation, shown: Shown) -> tuple[str, ...] | None:
     if shown.smooth is None:
         notes.append("never if nothing jumps")
     elif shown.smooth > _MORE * shown.size:
-        other = _relative(compilation, shown._replace(size=shown.smooth))
-        plain = f"{shown.smooth:.3g} {shown.hypothesis.unit}"
-        notes.append(f"{plain if other is None else f'{100 * other:.3g} %'} if nothing jumps")
-    return _name(shown), size, share, f"{shown.delay:.2f} s", "  ".join(notes)
+        other = _plain(compilation, shown._replace(size=shown.smooth))
+        notes.append(f"{other} if nothing jumps")
+    many_rows = _plain(compilation, in_rows)
+    return _name(shown), size, share, f"{shown.delay:.2f} s", many_rows, "  ".join(notes)
+
+
+def _plain(compilation: Compilation, shown: Shown) -> str:
+    """The size relative where there is something that it is a part of, "" for none."""
+    relative = _relative(compilation, shown)
+    if shown.size is None:
+        return ""
+    if relative is not None and not (shown.hypothesis.kind == "gain" and shown.hypothesis.unit):
+        return f"{100 * relative:.3g} %"
+    change, unit = shown.hypothesis.told(shown.size)
+    return f"{change:.3g} {unit}".rstrip()

@@ -111,7 +111,8 @@ def tune(
     held = np.array([limit.held for limit in limits(found, engine.residuals)])
     for k, log in enumerate(logs):
         least = int(work.lasts[k].min(initial=len(log)))
-        shows.add(log[:least], work.thresholds(k, held))
+        told = work.histories.get(k, History(work.spread))
+        shows.add(log[:least], work.thresholds(k, held), told)
         progress((len(logs) + k + 1) / total)
     lost = {n: s for n, s in zip(engine.residuals, work.lost.tolist(), strict=True) if s}
     whole = tuning._replace(shows=shows.by_fault(), window=window)
@@ -167,6 +168,8 @@ class _Work:
         self.free = np.array([0.0 if own else math.inf for own in modes])
         self.held = np.zeros(len(modes))
         self._drifts = [model.natures[name].drifts for name in engine.residuals]
+        #: By number of a log what it tells of its machine.
+        self.histories: dict[int, History] = {}
         #: Of residuals whose noise adds up, how far they go in a row and what noise is beside.
         self.walk, self.beside = np.zeros(len(modes)), np.zeros(len(modes))
 
@@ -232,7 +235,7 @@ class _Work:
                 history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
                 every.append(row)
                 peaks.append(peak)
-        found = history.fit_within()
+        found, self.histories[number] = history.fit_within(), history
         # a residual with fewer stages than others is watched while these warm up
         early = list(self._chunks(samples[:start], samples[:0], number))
         excess = [_beyond(chunk[0]) for chunk in early]

@@ -8,9 +8,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from bondgraph.ir.residual_limit import ShownSize
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
-from bondgraph.runtime.diagnosis.history import HEALTHY
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, directions
+from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
+from bondgraph.runtime.diagnosis.noise import COVERED, left_for_drift
+from bondgraph.runtime.diagnosis.row_averages import LAGS
+from bondgraph.runtime.diagnosis.rows import model_error
 from bondgraph.runtime.diagnosis.standing import followed
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN, Limit, limits
 from bondgraph.runtime.diagnosis.whole_thresholds import WholeThresholds
@@ -20,6 +23,8 @@ from bondgraph.text.tuples import NamedTuple
 
 _SURE = 0.9  # share of the windows in which the smallest change shows
 _LEAST = 0.1  # that in which a change may show
+_LUCK = 1.28  # deviations that noise is against a fault by at most, nine times of ten
+_ALONG = Limit._fields.index("along")
 _TIMES = 20  # in a window, at which it is asked what shows so far
 
 
@@ -57,6 +62,16 @@ class _Seen(NamedTuple):
     course: Array
 
 
+class _Known(NamedTuple):
+    """Of rows of a window, (rows, ...): what a watch leaves room for that knows the machine, slopes
+    by tolerated parameters, what no parameter explains; and what it knows."""
+
+    room: Array
+    slopes: Array
+    doubt: Array
+    history: History
+
+
 class ShownSizes:
     """Collects from healthy logs what faults would show in them, each begun in every window.
 
@@ -81,14 +96,17 @@ class ShownSizes:
         # each as what may jump; behind them those that need not
         self._lasting = [h for h in all_ if h.fault in model.dynamic]
         self._ways = [*all_, *self._lasting]
+        #: The whole of what each way changes, 0 where it has no direction (see `directions`).
+        along = dict(zip(*directions(all_, model), strict=True))
+        self._whole = np.abs([float(along.get(h, 0.0)) for h in self._ways])
         tolerances, nominal = model.tolerances, model.nominal
         self._tolerated = np.array([
             tolerances.get(h.fault, 0.0) * abs(nominal.get(h.fault, 0.0)) for h in self._ways
         ])
         self._found: list[list[_Seen]] = [[] for _ in self._ways]
 
-    def add(self, samples: Array, whole: WholeThresholds) -> None:
-        """Take the windows of one more log, whose thresholds begin with it."""
+    def add(self, samples: Array, whole: WholeThresholds, history: History) -> None:
+        """Take the windows of one more log, whose thresholds begin with it, and what it tells."""
         engine, nominal = whole.engine, self._model.nominal
         start = math.ceil(engine.warm_up / engine.sample_time) + 1
         behind = engine.configured(bounds=False)  # where it was a warm-up ago
@@ -102,9 +120,10 @@ class ShownSizes:
                 past.onset(past.run(samples[begin - start : begin], [start - 1])[0])
                 slopes = np.concatenate([slopes, past.run(part)], axis=1)
                 behind.run(samples[begin - start : begin - start + self._length])
-            batch, _, _ = whole.run(part)
+            batch, tolerated, doubt = whole.run(part)
             if self._ways:
-                seen = self._seen(slopes, batch, engine.sample_time)
+                known = self._known(batch.bound, tolerated, doubt, history)
+                seen = self._seen(slopes, batch, known, engine.sample_time)
                 for own, one in zip(self._found, seen, strict=True):
                     own.append(one)
 
@@ -122,7 +141,23 @@ class ShownSizes:
         """By residual and fault, from which size on the fault shows (see `_by_fault`)."""
         return _by_fault(self._ways, self._found, self._names)
 
-    def _seen(self, moved: Array, batch: Batch, sample_time: float) -> list[_Seen]:
+    def _known(self, bound: Array, tolerated: Array, doubt: Array, history: History) -> _Known:
+        """What a watch that has seen healthy rows leaves room for in the rows of a window."""
+        rows, slopes = self._rows(left_for_drift(bound, doubt)), self._rows(tolerated)
+        variance = np.zeros_like(rows)
+        for k, own in enumerate(slopes):
+            variance[k] = history.expected(own)[1]
+        return _Known(rows + UNKNOWN * np.sqrt(variance), slopes, self._rows(doubt), history)
+
+    def _rows(self, samples: Array) -> Array:
+        """The means of whole rows."""
+        count = len(samples) // self._every
+        whole = samples[: count * self._every].reshape(count, self._every, *samples.shape[1:])
+        return np.asarray(whole.mean(axis=1))
+
+    def _seen(
+        self, moved: Array, batch: Batch, known: _Known, sample_time: float
+    ) -> list[_Seen]:
         """Of one window, what shows of each way; `moved` is (n, ways, residuals)."""
         slopes, own, bound = np.abs(moved), self._table, batch.bound[:, None]
         room = 2.0 * bound - np.minimum(self._tolerated[:, None] * slopes, bound)
@@ -130,7 +165,7 @@ class ShownSizes:
         shows = (batch.valid & np.isfinite(top))[:, None]
         least = _size(room + top, slopes, shows)
         sure = _size(2.0 * self._rigid + top, slopes, shows).min(axis=0)
-        course = self._course(np.where(shows, moved, 0.0), room)
+        course = self._course(np.where(shows, moved, 0.0), room, known)
         found = []
         for k in range(len(self._ways)):
             of_way = least[:, k]
@@ -145,27 +180,67 @@ class ShownSizes:
             ))
         return found
 
-    def _course(self, moved: Array, room: Array) -> Array:
+    def _course(self, moved: Array, room: Array, known: _Known) -> Array:
         """The smallest change that has shown at each of so many times, by a sample or by a sum.
 
-        Both are beside a level that is followed (see `Levels` and `Cusum`). Of each way.
+        All are beside a level that is followed (see `Levels`, `Cusum` and `ScoreSums`), sums beside
+        a machine that is known. Of each way.
         """
         own, level = self._table, self._level
         count = len(moved) // self._every
         deviation, share = (np.repeat(x, self._every, axis=0)[: len(moved), None] for x in level)
         beyond = own[:, 2] * np.hypot(own[:, 0], deviation)
         course = _size(room + beyond, np.abs(moved * share), np.isfinite(beyond)).min(axis=2)
-        unit = np.where(own[:, 6] > 0.0, own[:, 6], own[:, 0] * np.sqrt(own[:, 5]))
-        rows, rooms = (
-            x[: count * self._every].reshape(count, self._every, *x.shape[1:]).mean(axis=1)
-            for x in (moved * share, room + UNKNOWN * deviation)
-        )
-        need = own[:, 3] * unit + np.cumsum(rooms + 0.5 * unit, axis=0)
-        sums = _size(need, np.abs(np.cumsum(rows, axis=0)), np.isfinite(need))
         ends = slice(self._every - 1, count * self._every, self._every)
-        course[ends] = np.minimum(course[ends], sums.min(axis=2, initial=math.inf))
+        rows, unsure = self._rows(moved * share), UNKNOWN * level[0][:count]
+        for found in (self._by_sums(rows, known.room + unsure), self._by_scores(rows, known)):
+            course[ends] = np.minimum(course[ends], found.min(axis=2, initial=math.inf))
         times = np.ceil(np.arange(1, _TIMES + 1) * len(course) / _TIMES).astype(int) - 1
         return np.asarray(np.minimum.accumulate(course, axis=0)[times])
+
+    def _by_sums(self, rows: Array, room: Array) -> Array:
+        """What sums of rows show so far, (rows, ways, residuals), in nine of ten.
+
+        A healthy machine may be anywhere in the `room`, against the fault, too.
+        """
+        own = self._table
+        unit = np.where(own[:, 6] > 0.0, own[:, 6], own[:, 0] * np.sqrt(own[:, 5]))
+        count = np.arange(1.0, len(rows) + 1.0)[:, None]
+        need = own[:, 3] * unit + np.cumsum(2.0 * self._white(room) + 0.5 * unit, axis=0)
+        need = (need + _LUCK * unit * np.sqrt(count))[:, None]
+        return _size(need, np.abs(np.cumsum(self._white(rows), axis=0)), np.isfinite(need))
+
+    def _by_scores(self, rows: Array, known: _Known) -> Array:
+        """What sums along a fault show so far, (rows, ways, residuals), in nine of ten."""
+        own, history = self._table, known.history
+        if not len(rows):
+            return np.empty(rows.shape)
+        moved, slopes = self._white(rows), self._white(known.slopes)
+        count = np.arange(1.0, len(rows) + 1.0)[:, None, None]
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            variance = own[:, 6] ** 2 + model_error(0.0 * known.room, self._white(known.room))
+            weight = moved / np.where(own[:, 6] > 0.0, variance, math.nan)[:, None]
+            tells = np.cumsum(weight * moved, axis=0)
+            step = np.sqrt(tells[-1] / np.sum((weight * moved) ** 2, axis=0))
+            products = np.cumsum(slopes[:, :, None] * weight[:, None], axis=0)
+            drift = COVERED * math.sqrt(3.0) * history.prior
+            less = np.einsum("a,nawr->nwr", drift, np.abs(products))
+            for k, one in enumerate(products):
+                unknown = history.expected(one.reshape(len(drift), less[k].size))[1]
+                less[k] += UNKNOWN * np.sqrt(unknown.reshape(less[k].shape))
+            less = np.maximum.accumulate(less, axis=0)
+            less += np.cumsum(np.abs(weight) * self._white(known.doubt)[:, None], axis=0)
+            less *= 2.0  # as in sums
+            less += count / self._whole[:, None] + _LUCK * np.sqrt(tells)
+            need = own[:, _ALONG] / step + 0.5 * step * tells + less
+            return _size(need, tells, np.isfinite(need) & (own[:, _ALONG] > 0.0))
+
+    def _white(self, rows: Array) -> Array:
+        """Rows (n, ..., residuals) with so much of those before as leaves averages no memory."""
+        found = rows.copy()
+        for k in range(1, min(LAGS, len(rows) - 1) + 1):
+            found[k:] += self._table[:, 7 + k] * rows[:-k]
+        return found
 
 
 def _size(need: Array, slopes: Array, shows: Mask) -> Array:
