@@ -25,12 +25,6 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* The same number; the model asks for it. */
-static bool equal(real left, real right)
-{
-    return left <= right && left >= right;
-}
-
 /* The smaller of two numbers. */
 static real least(real left, real right)
 {
@@ -192,15 +186,15 @@ oven_status oven_configure(
     return OVEN_OK;
 }
 
-/* error of order 0; stage 1 */
-static void run_r1_e0_to_y1(const oven_coefficients *c, oven_memory *x, const oven_samples *s,
-        bool first, real kept_, real *e0_out, real *y1_out)
+/* r1 on one sample.
+ * oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th) */
+static void run_r1(
+    const oven_coefficients *c, oven_memory *x, const oven_samples *s, real *r)
 {
-    /* on for the next sample */
-    x->r1_on = s->on ? REAL(1.0) : REAL(0.0);
+    const bool first = x->youngest == 0u && x->age[0] == 0u;
 
     /* how much of the start is over */
-    const real u = first ? REAL(0.0) : kept_ * least(REAL(1.0), x->r1_open + c->r1_pace);
+    const real u = first ? REAL(0.0) : least(REAL(1.0), x->r1_open + c->r1_pace);
 
     /* the same, for the next sample */
     x->r1_open = u;
@@ -238,37 +232,17 @@ static void run_r1_e0_to_y1(const oven_coefficients *c, oven_memory *x, const ov
 
     /* stage 2 */
     const real u2 = g0 - p1_1;
-    const real y2 = kept_ * x->r1_s2 + c->b * u2;
+    const real y2 = x->r1_s2 + c->b * u2;
 
     /* stage 2: memory */
     x->r1_s2 = c->a * y2 + c->b * u2;
 
     /* stage 1 */
     const real u1 = y2 + p1_1 + e0;
-    const real y1 = kept_ * x->r1_s1 + c->b * u1;
+    const real y1 = x->r1_s1 + c->b * u1;
 
     /* stage 1: memory */
     x->r1_s1 = c->a * y1 + c->b * u1;
-
-    *e0_out = e0;
-    *y1_out = y1;
-}
-
-/* r1 on one sample.
- * oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th) */
-static void run_r1(
-    const oven_coefficients *c, oven_memory *x, const oven_samples *s, real *r)
-{
-    const bool first = x->youngest == 0u && x->age[0] == 0u;
-
-    /* 0 where on changes */
-    const real kept_ = first ? REAL(1.0)
-        : (equal(x->r1_on, (s->on ? REAL(1.0) : REAL(0.0))) ? REAL(1.0) : REAL(0.0));
-
-    real e0;
-    real y1;
-
-    run_r1_e0_to_y1(c, x, s, first, kept_, &e0, &y1);
 
     r[OVEN_R1] = y1 - e0;
 }
@@ -472,15 +446,8 @@ static void bound_r1(
 {
     const bool first = x->youngest == 0u && x->age[0] == 0u;
 
-    /* 0 where on changes */
-    const real kept_ = first ? REAL(1.0)
-        : (equal(x->r1_on, (s->on ? REAL(1.0) : REAL(0.0))) ? REAL(1.0) : REAL(0.0));
-
-    /* on for the next sample */
-    x->r1_on = s->on ? REAL(1.0) : REAL(0.0);
-
     /* how much of the start is over */
-    const real u = first ? REAL(0.0) : kept_ * least(REAL(1.0), x->r1_open + c->r1_pace);
+    const real u = first ? REAL(0.0) : least(REAL(1.0), x->r1_open + c->r1_pace);
 
     /* the same, for the next sample */
     x->r1_open = u;
@@ -499,14 +466,14 @@ static void bound_r1(
 
     /* r1_w1: stage 2 */
     const real w1_u2 = phi0 * (c->r1_w1_Th * s->To - c->r1_w1_Th * s->Th);
-    const real w1_y2 = kept_ * x->r1_w1_s2 + c->b * w1_u2;
+    const real w1_y2 = x->r1_w1_s2 + c->b * w1_u2;
 
     /* r1_w1: stage 2: memory */
     x->r1_w1_s2 = c->a * w1_y2 + c->b * w1_u2;
 
     /* r1_w1: stage 1 */
     const real w1_u1 = w1_y2;
-    const real w1_y1 = kept_ * x->r1_w1_s1 + c->b * w1_u1;
+    const real w1_y1 = x->r1_w1_s1 + c->b * w1_u1;
 
     /* r1_w1: stage 1: memory */
     x->r1_w1_s1 = c->a * w1_y1 + c->b * w1_u1;

@@ -29,7 +29,7 @@ typedef double oven_real;
 /* Version of the structs and functions, and the size of a number. */
 #define OVEN_ABI (4u * 256u + (uint32_t)sizeof(oven_real))
 /* Identifies the model and the options that this code was made from. */
-#define OVEN_DIGEST "8e45fb82aac6e783"
+#define OVEN_DIGEST "8c8c4454205d2dec"
 
 /* What the code was made for: arguments of oven_configure, in s and rad/s. */
 #define OVEN_SAMPLE_TIME OVEN_CONSTANT(0.001)
@@ -71,7 +71,7 @@ typedef struct oven_samples {
 typedef struct oven_residuals {
     /* near 0 while all is well */
     oven_real value[OVEN_RESIDUALS];
-    /* false while the filter settles, and after a bad sample, and where a switch turns */
+    /* false while the filter settles, and after a bad sample */
     bool valid[OVEN_RESIDUALS];
 } oven_residuals;
 
@@ -120,7 +120,6 @@ typedef struct oven_coefficients {
 /* What is remembered from sample to sample, of one machine. */
 typedef struct oven_memory {
     oven_real r1_open;  /* how far r1 has come since its last start, to 1 */
-    oven_real r1_on;    /* on at the sample before */
     oven_real r1_s2;    /* memory of r1: stage 2 */
     oven_real r1_s1;    /* memory of r1: stage 1 */
     oven_real r2_open;  /* how far r2 has come since its last start, to 1 */
@@ -182,7 +181,6 @@ typedef struct oven_threshold_coefficients {
 /* What is remembered from sample to sample, of one machine. */
 typedef struct oven_threshold_memory {
     oven_real r1_open;   /* how far r1 has come since its last start, to 1 */
-    oven_real r1_on;     /* on at the sample before */
     oven_real r1_w1_s2;  /* memory of r1_w1: stage 2 */
     oven_real r1_w1_s1;  /* memory of r1_w1: stage 1 */
     oven_real r2_open;   /* how far r2 has come since its last start, to 1 */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 4
 #: Identifies the model and the options that this code was made from.
-DIGEST = "8e45fb82aac6e783"
+DIGEST = "8c8c4454205d2dec"
 
 #: What the code was made for, in s and rad/s.
 SAMPLE_TIME = 0.001
@@ -79,7 +79,6 @@ class Memory:
     """What is remembered from sample to sample."""
 
     r1_open: float  # how far r1 has come since its last start, to 1
-    r1_on: float    # on at the sample before
     r1_s2: float    # memory of r1: stage 2
     r1_s1: float    # memory of r1: stage 1
     r2_open: float  # how far r2 has come since its last start, to 1
@@ -204,14 +203,8 @@ class Monitor:
             x = self._x
             first = age == 0
 
-            # 0 where on changes
-            kept = 1.0 if first else (1.0 if x.r1_on == (1.0 if s.on else 0.0) else 0.0)
-
-            # on for the next sample
-            x.r1_on = 1.0 if s.on else 0.0
-
             # how much of the start is over
-            u = 0.0 if first else kept * min(1.0, x.r1_open + c.r1_pace)
+            u = 0.0 if first else min(1.0, x.r1_open + c.r1_pace)
 
             # the same, for the next sample
             x.r1_open = u
@@ -247,14 +240,14 @@ class Monitor:
 
             # stage 2
             u2 = g0 - p1_1
-            y2 = kept * x.r1_s2 + c.b * u2
+            y2 = x.r1_s2 + c.b * u2
 
             # stage 2: memory
             x.r1_s2 = c.a * y2 + c.b * u2
 
             # stage 1
             u1 = y2 + p1_1 + e0
-            y1 = kept * x.r1_s1 + c.b * u1
+            y1 = x.r1_s1 + c.b * u1
 
             # stage 1: memory
             x.r1_s1 = c.a * y1 + c.b * u1
@@ -350,7 +343,6 @@ class ThresholdMemory:
     """What is remembered from sample to sample."""
 
     r1_open: float   # how far r1 has come since its last start, to 1
-    r1_on: float     # on at the sample before
     r1_w1_s2: float  # memory of r1_w1: stage 2
     r1_w1_s1: float  # memory of r1_w1: stage 1
     r2_open: float   # how far r2 has come since its last start, to 1
@@ -453,14 +445,8 @@ class Thresholds:
             x = self._x
             first = age == 0
 
-            # 0 where on changes
-            kept = 1.0 if first else (1.0 if x.r1_on == (1.0 if s.on else 0.0) else 0.0)
-
-            # on for the next sample
-            x.r1_on = 1.0 if s.on else 0.0
-
             # how much of the start is over
-            u = 0.0 if first else kept * min(1.0, x.r1_open + c.r1_pace)
+            u = 0.0 if first else min(1.0, x.r1_open + c.r1_pace)
 
             # the same, for the next sample
             x.r1_open = u
@@ -478,14 +464,14 @@ class Thresholds:
 
             # r1_w1: stage 2
             w1_u2 = phi0 * (c.r1_w1_Th * s.To - c.r1_w1_Th * s.Th)
-            w1_y2 = kept * x.r1_w1_s2 + c.b * w1_u2
+            w1_y2 = x.r1_w1_s2 + c.b * w1_u2
 
             # r1_w1: stage 2: memory
             x.r1_w1_s2 = c.a * w1_y2 + c.b * w1_u2
 
             # r1_w1: stage 1
             w1_u1 = w1_y2
-            w1_y1 = kept * x.r1_w1_s1 + c.b * w1_u1
+            w1_y1 = x.r1_w1_s1 + c.b * w1_u1
 
             # r1_w1: stage 1: memory
             x.r1_w1_s1 = c.a * w1_y1 + c.b * w1_u1

@@ -19,6 +19,7 @@ from bondgraph.field.random_point import RandomPoint
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import VARIABLES, Expr, Kind, Op, topological
 from bondgraph.ir.nodes import has
+from bondgraph.ir.normal import Term
 
 _MOST = 6  # switches; each doubles the modes that are looked at
 _WORK = 20_000  # equations in all modes together
@@ -43,23 +44,69 @@ class Jumps:
         self._sensors = [s.symbol for s in system.graph.sensors if s.same_as is None]
         self._levels = {mode: _levels(system, mode) for mode in self.modes}
 
-    def level(self, mode: Expr, expr: Expr) -> float:
-        """The same of an expression of known signals; -1 where a derivative in it is an impulse."""
+    def goes_on(self, mode: Expr, term: Term) -> bool:
+        """Whether a filter may go on with a term as the mode changes: what jumps is input to it.
+
+        Of p**k g it is if g has k derivatives and only the k-th jumps, which filters see at the
+        moment at which it does. Of g itself it is if g has its jump from the mode that it reads,
+        not from readings: what it makes to turn one sample later then is as much as it can be off.
+        Of a law of derivatives it is if the law is linear in the derivatives that jump.
+        """
+        levels, order = self._inside(mode, term.atom, 0), max(term.order, 0)
+        if levels[term.atom] > order:
+            return True
+        if order:
+            return term.static and levels[term.atom] == order
+        if term.static:
+            return self.level(mode, term.atom, inf) > 0
+        return _linear(term.atom, levels)
+
+    def level(self, mode: Expr, expr: Expr, own: float = 0) -> float:
+        """That of an expression of known signals, the mode's `own`; below 0 if it is an impulse."""
+        return self._inside(mode, expr, own)[expr]
+
+    def _inside(self, mode: Expr, expr: Expr, own: float) -> dict[Expr, float]:
+        """The levels of all that is in an expression."""
         found: dict[Expr, float] = {}
         for node in topological([expr]):
-            found[node] = self._level(mode, node, [found[a] for a in node.args])
-        return found[expr]
+            known = own if node is mode else None
+            found[node] = self._level(mode, node, [found[a] for a in node.args], known)
+        return found
 
-    def _level(self, mode: Expr, node: Expr, args: list[float]) -> float:
-        if node is mode:
-            return 0
+    def _level(self, mode: Expr, node: Expr, args: list[float], known: float | None) -> float:
+        if known is not None:
+            return known
         if node.op is Op.SYM:
             levels = self._levels[mode]
             jumps = node.symbol.kind is Kind.SENSOR
             return (0 if levels is None else levels.get(node, 0)) if jumps else inf
         if node.order:
-            return max(args[0], 0) - node.order
+            return args[0] - node.order
         return min(args, default=inf)
+
+
+def _linear(atom: Expr, levels: Mapping[Expr, float]) -> bool:
+    """Whether all that jumps in a law is derivatives, none an impulse, and the law linear in them.
+
+    With factors that go on a filtered derivative is the filtered product, as far as it ever is.
+    """
+    stack = [atom]
+    while stack:
+        node = stack.pop()
+        if levels[node] > 0:
+            continue
+        if levels[node] < 0:
+            return False
+        if node.op is Op.ADD:
+            stack += node.args
+        elif node.op is Op.MUL:
+            jumps = [(factor, power) for factor, power in node.factors if levels[factor] <= 0]
+            if len(jumps) != 1 or jumps[0][1] != 1:
+                return False
+            stack.append(jumps[0][0])
+        elif node.op is not Op.DER:
+            return False
+    return True
 
 
 def _levels(system: EquationSystem, mode: Expr) -> dict[Expr, float] | None:

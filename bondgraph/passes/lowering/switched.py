@@ -24,7 +24,7 @@ class Switched:
 
     A residual whose terms all have the same order zero holds at every sample by itself, whatever
     jumps between two of them. Any other one mixes what is filtered with what is differentiated,
-    and starts anew at every mode that may make one of its terms jump.
+    and starts anew at every mode that may make more jump than the input of its filters.
     """
 
     def __init__(self, builder: Builder, filter: Filter, system: EquationSystem) -> None:
@@ -51,7 +51,8 @@ class Switched:
         """
         if self._jumps is None or not (laws or any(t.order > 0 for t in terms)):
             return None
-        modes = tuple(m for m in self._jumps.modes if self._jump(m, terms))
+        goes_on = self._jumps.goes_on
+        modes = tuple(m for m in self._jumps.modes if not all(goes_on(m, t) for t in terms))
         highest = max(order(t) for t in terms)
         fades = not laws and all(map(self._fades, terms)) and highest <= min(_HIGHEST, stages - 1)
         if not fades and not modes:
@@ -77,11 +78,6 @@ class Switched:
                 return LawChain(self._builder, self._filter, residual, stages, laws, window)
             return Chain(self._builder, self._filter, residual, stages, window)
         return WindowedChain(self._builder, self._filter, residual, stages, window)
-
-    def _jump(self, mode: Expr, terms: tuple[Term, ...]) -> bool:
-        """Whether a change of this mode may make some term jump."""
-        assert self._jumps is not None
-        return any(self._jumps.level(mode, t.atom) <= max(t.order, 0) for t in terms)
 
     def _fades(self, term: Term) -> bool:
         """Whether a term can be multiplied by a window; counts are never made a position."""

@@ -10,6 +10,7 @@ from numpy.polynomial import Polynomial
 
 import bondgraph
 from bondgraph.compilation import Compilation
+from bondgraph.ir.expr import Kind
 from bondgraph.ir.program import Const, Expression, Function, Product, Ref, Sum
 from bondgraph.passes.lowering.jumps import Jumps
 from bondgraph.passes.lowering.opening import _shape
@@ -88,6 +89,60 @@ model M {
 }
 """
     assert _levels(text, "on") == {"y1": 0, "y2": 0, "y3": 0, "y4": 1}
+
+
+def test_what_is_added_up_of_a_slope_jumps_as_what_has_the_slope() -> None:
+    system = Compilation(Source("m.bg", COIL.text)).equations
+    pool, jumps = system.graph.pool, Jumps(system)
+    start = pool.symbol("start", Kind.INITIAL)
+    voltage, current = sorted((s.symbol for s in system.graph.sensors), key=lambda s: s.symbol.name,
+                              reverse=True)  # fmt: skip
+    (closed,) = jumps.modes
+    for symbol, level in ((current, 0), (voltage, 1)):
+        assert jumps.level(closed, pool.integral(pool.der(symbol), start)) == level
+        assert jumps.level(closed, pool.integral(symbol, start)) == level + 1
+
+
+_BODY = "Sf:P -> 0:body { -> C:C; -> De:T; -> R:fins { f = if(on, 3, 1)*e }; -> p }"
+_BEHIND = _BODY + "\n    1:p { -> R:R; -> n }\n    0:n "
+
+
+@pytest.mark.parametrize(
+    ("lines", "anew"),
+    [
+        # only what is filtered jumps: a flow of heat, a voltage, an acceleration in a linear law
+        ("Sf:P -> 0:body { -> C:C; -> De:T; -> R:fins { f = if(on, 3, 1)*e } }", False),
+        ("Se:E = if(on, P, 0) -> 1:coil { -> I:C; -> R:R; -> Df:i }", False),
+        ("Se:F = if(on, P, 0) -> 1:mass { -> I:C; -> R:R; -> spring }\n"
+         "    0:spring { -> C:K = 2; -> De:s }", False),
+        (_BEHIND + "{ -> R:r { f = flow*e } }", False),
+        # the mode itself, in a law with a slope that jumps
+        (_BEHIND + "{ -> R:r { f = if(on, 2, 1)*flow*e } }", True),
+        # the root of a slope that jumps
+        (_BEHIND + "{ -> R:r { e = f*abs(f) } }", True),
+        # the slope of what jumps: D(D(T))
+        (_BEHIND + "{ -> C:c = 1 }", True),
+        # a momentum that goes on, with a current that does not
+        ("Se:P -> 1:coil { -> I:L { f = if(on, 2, 1)*p }; -> R:R; -> Df:i }", True),
+        # a reading that jumps: no threshold has room for it
+        ("Se:P -> 1:feed { -> R:R; -> bus }\n"
+         "    0:bus { -> R:lamp { f = if(on, 2, 1)*e }; -> De:v; -> coil }\n"
+         "    1:coil { -> I:C; -> R:wire = 1; -> Df:i }", True),
+    ],
+)  # fmt: skip
+def test_a_filter_goes_on_where_only_its_input_jumps(lines: str, anew: bool) -> None:
+    text = f"""bg 1
+model M {{
+    input on : bool
+    input P
+    input flow
+    param C = 2
+    param R = 4
+    {lines}
+}}
+"""
+    program = Compilation(Source("m.bg", text)).program
+    assert any(o.modes for o in program.openings) == anew
 
 
 @pytest.mark.parametrize(("on", "level"), [(True, 6.0), (False, 3.0)])
