@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.input_moves import InputMoves
 from bondgraph.runtime.diagnosis.rows import PAUSE, away
 from bondgraph.runtime.diagnosis.standing_encoders import StandingEncoders
 from bondgraph.runtime.log import Array, Mask
@@ -118,6 +119,7 @@ class SignalChecks:
         self._rough = np.zeros((2, count))  # of a healthy row: roughness, and beside its motion
         self._calm = np.full(count, math.inf)  # roughness of the smoothest row, beside its motion
         self._range = np.array([np.full(count, math.inf), np.full(count, -math.inf)])
+        self._moves = InputMoves(self._drive)
         self._still = np.zeros(count)  # longest run of equal values that has ended
         self._least = np.ones(count)  # share of the samples that differ from the last
         self._differ = np.zeros((2, count))  # of the healthy rows since the last share: such, all
@@ -134,6 +136,7 @@ class SignalChecks:
         self._run = np.zeros(len(self._names))
         self._tail = np.empty((0, len(self._names)))
         self._error = np.zeros((1, len(self._names)))  # of the last row, beside its neighbours
+        self._bends = np.zeros((1, len(self._names)))  # the same beside the middle of the nearest
         self._waiting: deque[Array] = deque()  # as `_rough`, of the last healthy rows
         self._path = np.full((_LEAST, len(self._names)), math.nan)  # before each stood still last
         #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
@@ -185,6 +188,7 @@ class SignalChecks:
         driven = {n for n, one in found.items() if one.kind != "stuck" and n in self._inputs}
         sensors = {n for n in (*found, *self.active) if n not in self._inputs}
         causes = self._causes(driven, sensors & {*self._names})
+        moved_anew = np.isin(self._names, list(driven))
         if causes:  # what inputs do is what a controller makes of it
             found, driven = {n: one for n, one in found.items() if n not in driven}, set()
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
@@ -199,7 +203,9 @@ class SignalChecks:
         if not healthy or any(one.kind == "burst" for one in found.values()):
             self._waiting.clear()
         elif not found:
-            self._learn(with_last, steered, len(own), far, rough, moved, ended, changes)
+            self._learn(
+                with_last, steered, len(own), far, rough, moved, ended, changes, ~moved_anew
+            )
             self._grow_rougher(_WAIT)
         return found, driven
 
@@ -372,7 +378,8 @@ class SignalChecks:
             last, before = with_last[-4 * _SIDE :], steered[-4 * _SIDE :]
             if len(with_last) >= 4 * _SIDE + 1:
                 far, rough, moved, _ = self._looked_at(with_last, steered)
-                self._learn(with_last, steered, len(row), far, rough, moved, ended, changes)
+                every = np.ones(own.shape[1], dtype=np.bool_)
+                self._learn(with_last, steered, len(row), far, rough, moved, ended, changes, every)
         self._grow_rougher(0)
         self._last = last
 
@@ -383,7 +390,7 @@ class SignalChecks:
 
     def _learn(
         self, samples: Array, steered: Array, count: int, far: Array, rough: Array, moved: Array,
-        ended: Array, changes: Array,
+        ended: Array, changes: Array, inputs: Mask,
     ) -> None:  # fmt: skip
         """A healthy row more, of the signals that have a value all through it.
 
@@ -415,6 +422,7 @@ class SignalChecks:
             table[which] = np.minimum(table, more)[which]
         self._waiting.append(np.where(fresh, [rough, beside], math.nan))
         self._samples += np.where(fresh, count, 0)
+        self._moves.learn(self._bends, ~spikes, inputs)  # large moves are few as well
         self._answer[1] += np.where(np.isfinite(far[0]), far[4], 0.0)
         self._stepped = np.fmax(self._stepped, _sizes(steered).max(axis=0))
         self._rows += fresh
@@ -439,7 +447,7 @@ class SignalChecks:
         where the spike is."""
         near, next_, middle = _around(samples)
         error = middle - near * self._weights[:, 0] - next_ * self._weights[:, 1]
-        self._error = np.nan_to_num(error)
+        self._error, self._bends = np.nan_to_num(error), np.abs(middle - near / 2.0)
         off, inside = np.abs(error), slice(_SIDE, len(error) - _SIDE)
         before, after = samples[1:-3], samples[3:-1]
         median = np.clip(middle, np.minimum(before, after), np.maximum(before, after))
@@ -452,6 +460,7 @@ class SignalChecks:
         usual = known & (single <= _OUT * self._answer[0])
         spike = np.where(usual | (answers & ~known), 0.0, single)
         answer = np.where(answers, single, 0.0).max(axis=0)
+        spike = np.where(self._explained(spike), 0.0, spike)
         apart = np.abs(np.arange(len(spike))[:, None] - spike.argmax(axis=0)) > _SIDE
         second = np.where(apart & ~usual, either, 0.0).max(axis=0)
         where = np.where(apart, 0.0, off[inside]).argmax(axis=0)  # its neighbours are out as well
@@ -460,6 +469,22 @@ class SignalChecks:
         count = np.broadcast_to(answers.sum(axis=0), second.shape)
         far = np.stack([spike.max(axis=0), size, second, answer, count])
         return far, np.median(off, axis=0), moved, where + 2 * _SIDE
+
+    def _explained(self, spike: Array) -> Mask:
+        """Which samples of a row, how much of a spike each is, inputs explain by their own moves.
+
+        Looked at where one is larger than what is known. An input that does some samples later what
+        a sensor has shown follows it, and explains nothing of it.
+        """
+        larger = (spike > _OUT * self._far) & (self._samples >= _ENOUGH) & ~self._drive
+        if not larger.any():
+            return np.zeros(spike.shape, dtype=np.bool_)
+        inputs = [name for name in self._names if name in self._inputs]
+        follows = np.zeros((len(self._names), len(inputs)), dtype=np.bool_)
+        for k in np.flatnonzero(larger.any(axis=0)).tolist():
+            follows[k] = [self._leads(self._names[k], name) for name in inputs]
+        own = self._bends[_SIDE : len(self._bends) - _SIDE]
+        return larger & (own <= _OUT * self._moves.explain(self._bends, follows))
 
     def _steps(self, error: Array) -> Mask:
         """Where a step to or from a sample explains more of the errors around it than a spike does.
@@ -482,7 +507,10 @@ class SignalChecks:
         """What signals were like and what is unusual now, as plain JSON."""
         learned = [numbers(table) for table in self._learned()] if len(self._weights) else []
         active = [[*one, self._needed.get(name, _QUIET)] for name, one in self.active.items()]
-        return {"learned": learned, "active": active, "encoders": self._encoders.state()}
+        return {
+            "learned": learned, "active": active, "moves": self._moves.state(),
+            "encoders": self._encoders.state(),
+        }  # fmt: skip
 
     def resume(self, state: Mapping[str, Any]) -> None:
         """Go on from a state; raises KeyError, TypeError or ValueError for one of another kind."""
@@ -493,6 +521,8 @@ class SignalChecks:
                 both = table is self._far and any(isinstance(row, list) for row in known)
                 table[:] = array(known[0] if both else known, table.shape)
             self._range[1][self._samples == 0] = -math.inf  # of which nothing is known
+        if "moves" in state:  # since 2026-11-30
+            self._moves.resume(state["moves"])
         self._encoders.resume(state["encoders"])
         for signal, kind, since, now, before, other, needed in state["active"]:
             told = float(since), float(now), float(before)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -560,3 +560,66 @@ def test_an_input_that_goes_further_than_ever_hides_spikes_once() -> None:
     told = _fan_looked(np.column_stack([valve, flow]))
     assert [(one.signal, one.kind) for one in told] == [("P", "spike")] * len(spikes)
     assert [round(one.since / _STEP) for one in told] == spikes.tolist()
+
+
+def _cycle(seed: int) -> Array:
+    """A current that goes to what is wanted with a time constant of two samples, and the voltage
+    behind a resistance: it turns more sharply now and then than it did in thousands of samples."""
+    draw = np.random.default_rng(seed)
+    runs = [np.full(draw.integers(5, 40), draw.uniform(-230.0, 320.0)) for _ in range(2000)]
+    wanted = np.concatenate(runs)[:10_000]
+    current = np.zeros(len(wanted))
+    for k in range(1, len(wanted)):
+        current[k] = wanted[k] + (current[k - 1] - wanted[k]) * np.exp(-0.5)
+    volt = 100.0 - 0.025 * current + 0.05 * draw.normal(size=len(wanted))
+    return np.column_stack([current + 0.2 * draw.normal(size=len(wanted)), volt])
+
+
+def _driven(samples: Array, row: int, names: Sequence[str] = ("I", "V")) -> list[Unusual]:
+    """What is unusual of signals, the first of which is an input."""
+    checks = SignalChecks(names, range(len(names)), _STEP, names[:1])
+    return [
+        one
+        for k in range(0, len(samples) - row + 1, row)
+        for one in checks.row((k + row - 1) * _STEP, samples[k : k + row], not checks.active)
+    ]
+
+
+@pytest.mark.parametrize("seed", [5, 6, 10, 17, 27, 29])
+def test_a_voltage_that_turns_as_sharply_as_its_current_has_no_spike(seed: int) -> None:
+    assert _driven(_cycle(seed), 15) == []
+
+
+@pytest.mark.parametrize("seed", [5, 10])
+def test_a_spike_of_a_voltage_is_told_wherever_its_current_moves(seed: int) -> None:
+    """Beside the sharpest turn of the second half, and where the current is about the same."""
+    samples = _cycle(seed)
+    bends = np.abs(np.diff(samples[:, 0], 2))
+    for at in (6000 + int(bends[6000:].argmax()) + 1, 6000 + int(bends[6000:].argmin()) + 1):
+        wrong = samples.copy()
+        wrong[at, 1] += 6.0 * np.sign(samples[at, 1] - samples[at - 1 : at + 2, 1].mean())
+        (one,) = _driven(wrong, 15)
+        assert (one[:2], round(one.since / _STEP)) == (("V", "spike"), at)
+
+
+@pytest.mark.parametrize("seed", [5, 6, 10])
+def test_a_spike_of_a_current_tells_nothing_of_how_far_a_voltage_goes(seed: int) -> None:
+    """What the voltage does not follow is not learned; nor is a wrong input told of."""
+    samples = _cycle(seed)
+    samples[2222, 0] += 4000.0
+    assert _driven(samples, 15) == []
+
+
+def test_a_state_without_moves_of_inputs_is_taken() -> None:
+    """How far sensors go beside an input is learned with the next rows."""
+    samples = _cycle(5)
+    one, other = (SignalChecks(["I", "V"], [0, 1], _STEP, ["I"]) for _ in range(2))
+    samples[9000, 1] += 6.0
+    for k in range(0, 5010, 15):
+        one.row((k + 14) * _STEP, samples[k : k + 15], True)
+    state = json.loads(json.dumps(one.state()))
+    del state["moves"]
+    other.resume(state)
+    rows = [(k, samples[k : k + 15]) for k in range(5010, 9990, 15)]
+    said = [found for k, row in rows for found in other.row((k + 14) * _STEP, row, True)]
+    assert [(found.signal, round(found.since / _STEP)) for found in said] == [("V", 9000)]
