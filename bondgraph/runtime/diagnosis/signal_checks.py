@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.diagnosis.input_moves import InputMoves
+from bondgraph.runtime.diagnosis.rare_steps import answers, rare_steps, sizes
 from bondgraph.runtime.diagnosis.rows import PAUSE, away
 from bondgraph.runtime.diagnosis.standing_encoders import StandingEncoders
 from bondgraph.runtime.log import Array, Mask
@@ -28,6 +29,9 @@ _FLOOR = 0.02  # of the range of a signal: what is smaller matters to nothing
 _NOISY = 0.003  # rough beside its own motion, in any healthy row: noise that would be missed
 _MANY = 100  # rows that tell how rough a signal may become: with fewer, half as much again
 _ALONE = 3.0  # times as far out as all around it: a spike is alone
+# Samples to either side that are around it. A machine that rings as far as its range has peaks that
+# are less than `_FLOOR` of it above the next samples, from 22 samples a period on, two half-waves.
+_AROUND = 11
 _ROUGHER = 2.0  # times as rough, beside its own motion, as any row was
 _WHITE = 0.7  # so rough beside its own motion is white noise at least: 0.8 or more
 _CHANGES = 0.3  # share of the samples that differ from the last, at any time in a noisy signal
@@ -40,7 +44,6 @@ _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
 _SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
 _FOLLOWS = 0.5  # correlation from which on a command follows a sensor
-_RARE = 0.1  # share of the steps of a command that are about as large as one that is rare
 
 
 class Unusual(NamedTuple):
@@ -87,9 +90,10 @@ class SignalChecks:
     does not keep others from being looked at.
 
     `inputs` drive the machine: they may jump and be rough as never before, and so may sensors
-    then. What an input shows so is not told by itself; whether it is wrong residuals say. Nor does
-    one stand still that is as large as ever, or as small: controllers are limited, and a sensor of
-    a machine that was switched off by it reads the same. Where one of
+    then: noise of these is told some rows later only, and a spike if it is farther out than such a
+    move makes it. What an input shows so is not told by itself; whether it is wrong residuals say.
+    Nor does one stand still that is as large as ever, or as small: controllers are limited, and a
+    sensor of a machine that was switched off by it reads the same. Where one of
     them, or one of the `modes` by their columns, makes a step that is rare, a sensor may answer
     with a peak of a sample or two, as the current into a capacitor that is switched on: no spike
     is looked for there, until enough such answers are known: then one twice as far out as any of
@@ -139,6 +143,7 @@ class SignalChecks:
         self._bends = np.zeros((1, len(self._names)))  # the same beside the middle of the nearest
         self._waiting: deque[Array] = deque()  # as `_rough`, of the last healthy rows
         self._path = np.full((_LEAST, len(self._names)), math.nan)  # before each stood still last
+        self._before = np.zeros((_AROUND, len(self._names)))  # how far out the last samples were
         #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
         self._loud = np.zeros((_AFTER, 2, len(self._names)), dtype=np.bool_)
         self._encoders.restart()
@@ -176,9 +181,9 @@ class SignalChecks:
         top = np.fmax(self._range[1], own.max(axis=0))
         bottom = np.fmin(self._range[0], own.min(axis=0))
         span = top - bottom
-        sizes = self._unusual(far, rough, moved, runs, span, self._matters(rough, suspects))
-        sizes["stuck"][0][self._rests(own[-1], runs, top, bottom, suspects)] = False
-        for kind, (out, now, before) in sizes.items():
+        kinds = self._unusual(far, rough, moved, runs, span, self._matters(rough, suspects))
+        kinds["stuck"][0][self._rests(own[-1], runs, top, bottom, suspects)] = False
+        for kind, (out, now, before) in kinds.items():
             for k in np.flatnonzero(out & (self._samples >= _ENOUGH)).tolist():
                 late = len(with_last) - 1 - where[k] if kind == "spike" else len(own) - 1
                 late = runs[k] - 1 if kind == "stuck" else late
@@ -188,9 +193,10 @@ class SignalChecks:
         driven = {n for n, one in found.items() if one.kind != "stuck" and n in self._inputs}
         sensors = {n for n in (*found, *self.active) if n not in self._inputs}
         causes = self._causes(driven, sensors & {*self._names})
+        found = {n: one for n, one in found.items() if n not in driven}
         moved_anew = np.isin(self._names, list(driven))
         if causes:  # what inputs do is what a controller makes of it
-            found, driven = {n: one for n, one in found.items() if n not in driven}, set()
+            driven = set()
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
             before = self._range[1] - self._range[0]
             beyond = (span > 2.0 * before) & (span > 0.0)  # as far as all that it did before
@@ -199,7 +205,7 @@ class SignalChecks:
         self._driven = 0 if driven or beyond.any() else self._driven + 1
         if self._driven < _AFTER:
             known = self._noisy() | causes
-            found = {n: one for n, one in found.items() if one.kind == "stuck" or n in known}
+            found = {n: one for n, one in found.items() if one.kind != "burst" or n in known}
         if not healthy or any(one.kind == "burst" for one in found.values()):
             self._waiting.clear()
         elif not found:
@@ -308,8 +314,8 @@ class SignalChecks:
         """Of each kind: which signals are unusual, how far out each is now, and was at most."""
         with np.errstate(divide="ignore", invalid="ignore"):
             floor = _FLOOR * np.maximum(span, 1e-300)
-            spike = far[0] > np.maximum(_OUT * self._far, floor)
-            spike &= far[0] > _ALONE * far[2]
+            rougher = np.fmax(rough / self._rough[0], 1.0)  # noise has as much larger peaks
+            spike = far[2] > np.maximum(_OUT * rougher * self._far, floor)
             told = np.isin(self._names, list(self._noisy()))
             share = np.where(told, 0.5, 1.0)  # it goes on until it is half as much
             driving = np.where(told, 1.0, self._driving(rough, span))  # that it may be itself
@@ -397,7 +403,8 @@ class SignalChecks:
         It has so many samples, and others before it. What the last of them are is known with the
         next row only: of a spike there the range is none.
 
-        Two spikes in a row are not told, and not what the signal does: it is as smooth as ever.
+        Spikes that are not alone are not told, and not what the signal does: it is as smooth as
+        ever.
         """
         fresh = np.isfinite(far[0]) & (self._samples < _MOST)
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
@@ -424,7 +431,7 @@ class SignalChecks:
         self._samples += np.where(fresh, count, 0)
         self._moves.learn(self._bends, ~spikes, inputs)  # large moves are few as well
         self._answer[1] += np.where(np.isfinite(far[0]), far[4], 0.0)
-        self._stepped = np.fmax(self._stepped, _sizes(steered).max(axis=0))
+        self._stepped = np.fmax(self._stepped, sizes(steered).max(axis=0))
         self._rows += fresh
 
     def _share(self, count: int, changes: Array, usual: Mask) -> Array:
@@ -441,10 +448,10 @@ class SignalChecks:
         return share
 
     def _looked_at(self, samples: Array, steered: Array) -> tuple[Array, Array, Array, Array]:
-        """Of samples (n, signals): the largest spike, by how much it is off what its neighbours let
-        expect, and the next spike that is not beside it, the largest answer to what is `steered`
-        (n, commands), and how many samples are such; the roughness, what the signals move, and
-        where the spike is."""
+        """Of samples (n, signals): the largest spike, by how much the largest that is alone is off
+        what its neighbours let expect, and how large that is, the largest answer to what is
+        `steered` (n, commands), and how many samples are such; the roughness, what the signals
+        move, and where that spike is."""
         near, next_, middle = _around(samples)
         error = middle - near * self._weights[:, 0] - next_ * self._weights[:, 1]
         self._error, self._bends = np.nan_to_num(error), np.abs(middle - near / 2.0)
@@ -454,21 +461,34 @@ class SignalChecks:
         either = np.minimum(off, np.abs(middle - median))[inside]
         single = np.where(self._steps(error), 0.0, either)
         own = slice(2 * _SIDE, len(samples) - 2 * _SIDE)
-        answers = _answers(steered)[own, None] & ~self._drive
-        larger = _answers(steered, self._stepped)[own, None]  # how far that goes nobody knows
-        known = answers & ~larger & (self._answer[1] >= _ENOUGH)
+        rare = rare_steps(steered, int(self._drive.sum()))
+        beside = answers(rare)[own] & ~self._drive
+        # than all that were answered: how far that goes nobody knows
+        larger = answers(rare & (sizes(steered) > self._stepped))[own]
+        known = beside & ~larger & (self._answer[1] >= _ENOUGH)
         usual = known & (single <= _OUT * self._answer[0])
-        spike = np.where(usual | (answers & ~known), 0.0, single)
-        answer = np.where(answers, single, 0.0).max(axis=0)
-        spike = np.where(self._explained(spike), 0.0, spike)
-        apart = np.abs(np.arange(len(spike))[:, None] - spike.argmax(axis=0)) > _SIDE
-        second = np.where(apart & ~usual, either, 0.0).max(axis=0)
+        spike = np.where(usual | (beside & ~known), 0.0, single)
+        answer = np.where(beside, single, 0.0).max(axis=0)
+        explained = self._explained(spike)
+        spike = np.where(explained, 0.0, spike)
+        alone = self._lonely(spike, np.where(usual | explained, 0.0, np.nan_to_num(either)))
+        apart = np.abs(np.arange(len(spike))[:, None] - alone.argmax(axis=0)) > _SIDE
         where = np.where(apart, 0.0, off[inside]).argmax(axis=0)  # its neighbours are out as well
         moved = np.median(np.abs(np.diff(samples, axis=0)), axis=0)
         size = off[inside][where, np.arange(len(where))]
-        count = np.broadcast_to(answers.sum(axis=0), second.shape)
-        far = np.stack([spike.max(axis=0), size, second, answer, count])
+        count = np.broadcast_to(beside.sum(axis=0), size.shape)
+        far = np.stack([spike.max(axis=0), size, alone.max(axis=0), answer, count])
         return far, np.median(off, axis=0), moved, where + 2 * _SIDE
+
+    def _lonely(self, spike: Array, out: Array) -> Array:
+        """The spikes beside which no sample is nearly as far `out`, but for those next to them."""
+        around = np.concatenate([self._before, out, np.zeros((_AROUND, out.shape[1]))])
+        self._before = around[len(out) : len(out) + _AROUND]
+        if not (spike > _OUT * self._far).any():
+            return spike
+        near = np.lib.stride_tricks.sliding_window_view(around, _AROUND - _SIDE, axis=0).max(axis=2)
+        largest = np.maximum(near[: len(out)], near[-len(out) :])
+        return np.where(spike > _ALONE * largest, spike, 0.0)
 
     def _explained(self, spike: Array) -> Mask:
         """Which samples of a row, how much of a spike each is, inputs explain by their own moves.
@@ -540,32 +560,3 @@ class SignalChecks:
 def _around(samples: Array) -> tuple[Array, Array, Array]:
     """For each sample that has two on either side: sums of the nearest and the next, and itself."""
     return samples[1:-3] + samples[3:-1], samples[:-4] + samples[4:], samples[2:-2]
-
-
-def _sizes(steered: Array) -> Array:
-    """Of the steps to each sample of what is `steered`, (n, commands); no number makes none."""
-    sizes = np.abs(np.diff(steered, axis=0, prepend=steered[:1]))
-    return np.where(np.isfinite(sizes), sizes, 0.0)
-
-
-def _answers(steered: Array, least: Array | float = 0.0) -> Mask:
-    """At which samples sensors may answer to a rare step of what is `steered`, (n, commands).
-
-    A step is rare that few others come near to: those of a command that is held over some samples,
-    of a converter or of a noisy reading do. Steps of a command up to the `least` are none.
-
-    >>> on = np.zeros((40, 1))
-    >>> on[25:] = 1.0
-    >>> np.flatnonzero(_answers(on)).tolist()
-    [25, 26, 27]
-    >>> np.flatnonzero(_answers(np.arange(40)[:, None] // 4 % 2 * 1.0)).tolist()
-    []
-    """
-    sizes = _sizes(steered)
-    rare = np.zeros(len(sizes), dtype=np.bool_)
-    for column, most in zip(sizes.T, np.broadcast_to(least, sizes.shape[1]), strict=True):
-        near = len(column) - np.searchsorted(np.sort(column), column / _ALONE)
-        rare |= (column > most) & (near <= _RARE * len(column))
-    found = np.concatenate([np.zeros(_SIDE, dtype=np.bool_), rare])
-    around = np.lib.stride_tricks.sliding_window_view(found, _SIDE + 1)
-    return np.asarray(around.any(axis=1))
