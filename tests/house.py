@@ -28,10 +28,11 @@ WORDS = (
 
 
 class Module(NamedTuple):
-    """A file of the package: its dotted name and its syntax tree."""
+    """A file of the package: its dotted name, its syntax tree and how many lines it has."""
 
     name: str
     tree: ast.Module
+    lines: int
 
 
 @cache
@@ -41,7 +42,8 @@ def modules() -> list[Module]:
     for file in sorted((ROOT / "bondgraph").rglob("*.py")):
         parts = file.relative_to(ROOT).with_suffix("").parts
         name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
-        found.append(Module(name, ast.parse(file.read_text())))
+        text = file.read_text()
+        found.append(Module(name, ast.parse(text), text.count("\n")))
     return found
 
 

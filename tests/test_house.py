@@ -24,6 +24,11 @@ def test_no_two_modules_share_a_name() -> None:
     assert house.names_met_twice(house.modules()) == []
 
 
+def test_no_file_is_longer_than_an_idea() -> None:
+    long = {f.name: f.lines for f in house.modules() if f.lines > 600}
+    assert long == {}, "which ideas are in it?"
+
+
 def test_each_word_of_the_vocabulary_is_defined_once() -> None:
     assert [w for w in house.WORDS if len(house.definitions(house.modules(), w)) != 1] == []
 
@@ -60,9 +65,9 @@ def _of_os(function: ast.Attribute) -> bool:
 
 def test_what_is_counted_is_found() -> None:
     g = "def g(n):\n    '''Doc.'''\n    return n.op in (Op.A, Op.B, Op.C)"
-    one = house.Module("bondgraph.x.a", ast.parse(f"from bondgraph.y.a import f\n{g}"))
+    one = house.Module("bondgraph.x.a", ast.parse(f"from bondgraph.y.a import f\n{g}"), 0)
     f = "FN = 'asinh cosh'"
-    other = house.Module("bondgraph.y.a", ast.parse(f"from bondgraph.x.a import g\n{f}"))
+    other = house.Module("bondgraph.y.a", ast.parse(f"from bondgraph.x.a import g\n{f}"), 0)
     both = [one, other]
     assert house.circles(both) == [["bondgraph.x.a", "bondgraph.y.a"]]
     assert house.names_met_twice(both) == ["a"]
