@@ -222,13 +222,7 @@ class ShownSizes:
             weight = moved / np.where(own[:, 6] > 0.0, variance, math.nan)[:, None]
             tells = np.cumsum(weight * moved, axis=0)
             step = np.sqrt(tells[-1] / np.sum((weight * moved) ** 2, axis=0))
-            products = np.cumsum(slopes[:, :, None] * weight[:, None], axis=0)
-            drift = COVERED * math.sqrt(3.0) * history.prior
-            less = np.einsum("a,nawr->nwr", drift, np.abs(products))
-            for k, one in enumerate(products):
-                unknown = history.expected(one.reshape(len(drift), less[k].size))[1]
-                less[k] += UNKNOWN * np.sqrt(unknown.reshape(less[k].shape))
-            less = np.maximum.accumulate(less, axis=0)
+            less = np.maximum.accumulate(_by_others(weight, slopes, history), axis=0)
             less += np.cumsum(np.abs(weight) * self._white(known.doubt)[:, None], axis=0)
             less *= 2.0  # as in sums
             less += count / self._whole[:, None] + _LUCK * np.sqrt(tells)
@@ -241,6 +235,22 @@ class ShownSizes:
         for k in range(1, min(LAGS, len(rows) - 1) + 1):
             found[k:] += self._table[:, 7 + k] * rows[:-k]
         return found
+
+
+def _by_others(weight: Array, slopes: Array, history: History) -> Array:
+    """What healthy parameters add to each score so far, (rows, ways, residuals), see `ScoreSums`.
+
+    The `weight` of rows is of that shape, `slopes` are (rows, parameters, residuals).
+    """
+    drift = COVERED * math.sqrt(3.0) * history.prior
+    products = np.zeros((len(drift), *weight.shape[1:]))
+    found = np.zeros(weight.shape)
+    for k, (row, own) in enumerate(zip(weight, slopes, strict=True)):
+        products += own[:, None] * row
+        unknown = history.expected(products.reshape(len(drift), row.size))[1]
+        found[k] = np.tensordot(drift, np.abs(products), 1)
+        found[k] += UNKNOWN * np.sqrt(unknown.reshape(row.shape))
+    return found
 
 
 def _size(need: Array, slopes: Array, shows: Mask) -> Array:
