@@ -22,6 +22,7 @@ _OVER = math.log(20.0)  # how much more probable it has to be that a fault is ov
 _QUIET = 2  # rows, at least: what moves through zero is quiet in one
 _STILL = 8  # rows at least that no alarm would be given in, until it is over for that alone
 _OUT = 3.0  # deviations that noise by itself hardly reaches
+_CHANCE = 2.33  # deviations below an even chance, of a test of signs: one in a hundred
 _LEAST = 0.5  # deviations, of averages or rows: a fault that does less is not seen
 
 
@@ -36,13 +37,13 @@ class Detection:
     together, are those of a healthy machine as that each goes on as it has been while it was out,
     normal with that mean and deviation (Wald, 1945), and none speaks against it: two rows for a
     large fault, some more for a small one. Where it is known what fault it is, it goes on as that
-    fault does in each row, as well as laws are known, if it is what most of the rows were out by so
-    far. So a row tells nothing in which it would not show, as where it acts in a part of a motion
-    only. When no alarm would be given for long, it is over nevertheless: what a fault does may be
-    as noisy as its residual, and explain noise. A row in which one is as far out as an alarm takes
-    speaks against an end, however it was before: it may swing. A fault that comes and goes is not
-    told each time: what comes back soon has to be away for twice as long the next time, for so many
-    rows at most as a `pause` has.
+    fault does in each row, as well as laws are known, unless it is surely not what most of the rows
+    were out by so far. So a row tells nothing in which it would not show, as where it acts in a
+    part of a motion only. When no alarm would be given for long, it is over nevertheless: what a
+    fault does may be as noisy as its residual, and explain noise. A row in which one is as far out
+    as an alarm takes speaks against an end, however it was before: it may swing. A fault that comes
+    and goes is not told each time: what comes back soon has to be away for twice as long the next
+    time, for so many rows at most as a `pause` has.
     """
 
     def __init__(
@@ -74,10 +75,10 @@ class Detection:
         self._streak = np.zeros(len(self._names), dtype=int)
         self._cusum.restart()
         self.scores.restart()
-        # of rows of this alarm, and of their averages: 1, excess, squares; and how many more of
-        # those that were out are explained by the fault that is known than are not
-        self._sum = np.zeros((7, len(self._names)))
-        self._held = np.zeros((7, len(self._names)))  # the same of rows since they are quiet
+        # of rows of this alarm, and of their averages: 1, excess, squares; and of those that were
+        # out how many, and how many more are explained by the fault that is known than are not
+        self._sum = np.zeros((8, len(self._names)))
+        self._held = np.zeros((8, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
         self._quiet = 0  # rows that nothing speaks against an end in
         self._still = 0  # rows that no alarm would be given in
@@ -167,7 +168,7 @@ class Detection:
 
     def reconsider(self) -> None:
         """What quiet rows have told of the end of a fault was told without knowing the fault."""
-        self._healthy[:] = self._sum[6] = self._held[6] = 0.0
+        self._healthy[:] = self._sum[6:] = self._held[6:] = 0.0
         self._quiet = 0
 
     def over(
@@ -185,8 +186,9 @@ class Detection:
         more = np.where(seen & (self._sum[0] > 0), self._more(excess, limits[:, 5]), 0.0)
         moved = moves() if seen.any() else None
         if moved is not None:
-            named = np.isfinite(moved.last) & (self._sum[6] >= 0.0)
-            self._held[6] += _explained(moved.last, row, excess, limits[:, 0])
+            count, balance = self._sum[6:]
+            named = np.isfinite(moved.last) & (balance >= -_CHANCE * np.sqrt(count))
+            self._held[6:] += _explained(moved.last, row, excess, limits[:, 0])
             without, tells = self._without(moved, row, limits)
             seen &= tells | loud | ~named
             more = np.where(seen, np.where(named, without, more), 0.0)
@@ -273,10 +275,11 @@ def _excess(value: Array, bound: Array, sigma: Array) -> Array:
 
 
 def _explained(moved: Array, row: Row, excess: Array, sigma: Array) -> Array:
-    """Of residuals that are out, 1 where a fault that moves them so explains most of it, or -1."""
+    """Which residuals are out, 1 or 0, and of these 1 where a fault that moves them so explains
+    most of it, or -1: both (2, residuals)."""
     left = _excess(row.value - moved, row.bound, sigma)
     said = np.where(np.abs(left) <= 0.5 * np.abs(excess), 1.0, -1.0)
-    return np.where((np.abs(excess) > _OUT) & np.isfinite(left), said, 0.0)
+    return np.where((np.abs(excess) > _OUT) & np.isfinite(left), [np.ones_like(said), said], 0.0)
 
 
 def _without(moved: Array, value: Array, bound: Array, sigma: Array) -> tuple[Array, Mask]:
