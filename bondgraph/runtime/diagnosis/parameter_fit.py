@@ -62,7 +62,7 @@ def fit(
         runs.late = sorted({*runs.late, *delayed})
         problem = ErrorsInVariables(runs, free, tolerances, model.reads)
         at = np.append(at[:fitted], [late.get(k, 0.0) for k in runs.late])
-        at = _solved(problem, at, progress)
+        at = _solved(problem, at, lambda _: None)  # what is told goes on, not back
     names = problem.names
     count = len(names)
     at, whole, null, asked = _declared(problem, at)

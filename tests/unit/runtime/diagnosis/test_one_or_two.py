@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.ir.signature_matrix import DoubleFaults
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo, one_or_two, pairs_that_can
 from tests.unit.runtime.diagnosis.explanations import SEES, explained, pair_of
 
@@ -25,6 +26,22 @@ def test_two_at_once_do_not_feed_where_nothing_is_stored() -> None:
     known, sees = {"leak": 0.0, "k": 1.0}, {"r1": ("leak", "k")}
     pair, feeding = pair_of("leak", "k", 0.6, -0.5, -0.2), pair_of("leak", "k", 0.6, 0.5, -0.2)
     assert pairs_that_can([pair, feeding], known, sees, ["r1"], {"leak": 1}) == [pair]
+
+
+def test_no_signal_more_than_doubles_beside_another_fault() -> None:
+    """A sensor that tells true/(1 - change): 0.5 of it is twice as much, 0.9 ten times; a command
+    of which all is lost, or that is turned."""
+    sensor, command = (Hypothesis(n, "gain", "", 0.3, n == "U") for n in ("y", "U"))
+    known, sees = {"y": None, "U": None, "k": 1.0}, {"r1": ("y", "U", "k")}
+    of = pair_of("y", "k", 0.6, 0.5, 0.1)
+    fault = of.hypotheses[1]
+
+    def can(signal: Hypothesis, change: float) -> bool:
+        two = of._replace(hypotheses=(signal, fault), changes=(change, 0.1))
+        return pairs_that_can([two], known, sees, ["r1"]) == [two]
+
+    assert [can(sensor, change) for change in (0.5, 0.9, -0.9)] == [True, False, True]
+    assert [can(command, change) for change in (1.0, 2.0, -0.9)] == [True, False, True]
 
 
 def test_two_at_once_are_a_thousand_times_as_rare_as_one() -> None:
