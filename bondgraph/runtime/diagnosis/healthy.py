@@ -269,8 +269,7 @@ def as_it_is(
 
     Within their tolerances. What healthy rows do not tell is as it is declared.
     """
-    most = math.sqrt(3.0) * history.prior
-    off = np.clip(history.fit(), -most, most).tolist()
+    off = history.fit_within().tolist()
     return {h.fault: nominal[h.fault] - d
             for h, d in zip(known, off, strict=True) if h.kind == "value"}  # fmt: skip
 

@@ -155,24 +155,21 @@ class History:
 def within_tolerance(root: Array, wanted: Array) -> Array:
     """The parameters, in deviations, that fit best without one being out of its tolerance.
 
-    The least |root z - wanted|; a parameter that would be further off is held at its tolerance, and
-    the others are fitted again.
+    The least |root z - wanted| in that box. Where two parameters make up for each other, one that
+    is held at its tolerance may take the other back from its own, to either side.
 
     >>> root, wanted = np.array([[1.0, 0.5], [0.0, 1.0]]), np.array([4.0, 1.0])
     >>> within_tolerance(root, wanted).round(2).tolist()
     [1.73, 1.71]
     """
-    most, found = math.sqrt(3.0), np.zeros(len(wanted))
-    free = np.ones(len(wanted), dtype=np.bool_)
-    while free.any():
-        left = wanted - root[:, ~free] @ found[~free]
-        found[free] = np.linalg.lstsq(root[:, free], left)[0]
-        over = np.abs(found) > most
-        found[over] = np.copysign(most, found[over])
-        if not (over & free).any():
-            break
-        free &= ~over
-    return found
+    found = np.linalg.solve(root, wanted)
+    most = math.sqrt(3.0)
+    if (np.abs(found) <= most).all():
+        return np.asarray(found)
+    from scipy.optimize import lsq_linear
+
+    many = 10 * len(found)  # each may be held and let go again some times
+    return np.asarray(lsq_linear(root, wanted, (-most, most), method="bvls", max_iter=many).x)
 
 
 def triangle(rows: Array) -> Array:

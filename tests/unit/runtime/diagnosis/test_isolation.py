@@ -367,6 +367,36 @@ def test_the_parameters_of_a_machine_are_those_that_healthy_rows_tell_within_tol
         assert found == pytest.approx({"R": wanted, "L": 5.0}, rel=1e-4)
 
 
+def _least_in_box(root: np.ndarray, wanted: np.ndarray, most: float) -> np.ndarray:
+    """The least of |root z - wanted| in a box, of all choices of what is held at which side."""
+    found, least = np.zeros(len(wanted)), math.inf
+    for sides in product((-1.0, 0.0, 1.0), repeat=len(wanted)):
+        point = most * np.array(sides)
+        free = point == 0.0
+        point[free] = np.linalg.lstsq(root[:, free], wanted - root @ point)[0]
+        misfit = float(np.linalg.norm(root @ point - wanted))
+        if (np.abs(point) <= most * (1.0 + 1e-9)).all() and misfit < least:
+            found, least = point, misfit
+    return found
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_parameters_that_make_up_for_each_other_fit_best_within_their_tolerances(seed: int) -> None:
+    # all slopes are nearly the same: what fits best is far out, and no corner of the box is near it
+    draw = np.random.default_rng(seed)
+    history = History(np.array([1.0, 2.0, 0.5]))
+    signs = draw.choice([-1.0, 1.0], 3) / history.prior
+    for _ in range(30):
+        slopes = signs * (1.0 + 0.05 * draw.normal(size=3))
+        history.add(10.0 * draw.normal(size=1), np.ones(1), slopes[:, None], 1.0)
+    known = history.known()
+    wanted = history.prior * _least_in_box(known[:, :-1], known[:, -1], math.sqrt(3.0))
+    assert history.fit_within() == pytest.approx(wanted, rel=1e-6, abs=1e-6)
+    names = [Hypothesis(n, "value", "", 1.0, True) for n in "abc"]
+    machine = as_it_is(names, dict.fromkeys("abc", 7.0), history)
+    assert list(machine.values()) == pytest.approx(7.0 - wanted, rel=1e-6)
+
+
 def test_where_each_fault_is_impossible_none_is_probable() -> None:
     one = Hypothesis("a", "value", "", 1.0, True)
     found = [Explained(f, -math.inf, one._replace(fault=f), 0.0, 0.0) for f in "ab"]

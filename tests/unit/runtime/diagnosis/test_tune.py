@@ -354,6 +354,29 @@ def test_no_tolerance_explains_noise_by_more_than_it_allows() -> None:
     assert 0.8 * plain <= sigma("10 F +- 20%") * 1.01 and sigma("10 F +- 20%") <= plain
 
 
+def test_logs_do_not_stand_apart_by_parameters_that_make_up_for_each_other() -> None:
+    """A current of 3 A +- 0.05 A hardly tells E from R: what a law leaves out takes both far out.
+
+    In three logs the voltage follows the current by 0, 2 and 4 Ohm more. For that R would have to
+    be 4 Ohm less, and E 12 V: within its tolerance R is 0.2 Ohm less, which takes 0.6 V of E, and
+    so every log stands at zero in the mean. At both tolerances one would stand 3.4 V off.
+    """
+    text = (
+        "bg 1\nmodel M { param E = 100 V +- 4%\nparam R = 2 Ohm +- 10%\ninput u : V\n"
+        "1:s { <- Se:pump = E; -> R:r = R; -> Df:i; -> Se:load = u } }\n"
+    )
+    c = Compilation(Source("m.bg", text), None, Options(rate=1 / _STEP))
+    engine, draw = c.engine(), np.random.default_rng(5)
+    logs = []
+    for more in (0.0, 2.0, 4.0):
+        turns = 0.05 * np.sin(2.0 * np.pi * np.arange(2 * _COUNT) / _COUNT)
+        noise = 1e-3 * draw.standard_normal(2 * _COUNT)
+        signals = {"i": 3.0 + turns, "u": 94.0 - (2.0 + more) * turns + noise}
+        logs.append(np.column_stack([signals[k.path] for k in engine.signals]))
+    limit = tune(engine, c.diagnosis_model, logs, "digest", 2.0, _WINDOW).tuning.limits["r1"]
+    assert limit.apart < 0.1 * limit.sigma
+
+
 @pytest.mark.parametrize("tunes", [True, False])
 def test_what_adds_up_readings_walks_away(tunes: bool) -> None:
     """F - K (q + c q^3) with q = int(v), of a spring that moves little: it walks by K times noise.
