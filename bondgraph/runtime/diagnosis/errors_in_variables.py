@@ -118,8 +118,8 @@ class ErrorsInVariables:
         self.names = (*self._free, *free.offsets)
         biased = runs.names(runs.biased)
         self._offset_at = [biased.index(n) for n in free.offsets]
-        self._late_at = [runs.biased.index(k) for k in runs.late]
-        self._sizes = runs.sizes(runs.biased)
+        self._late_at = [runs.moved.index(k) for k in runs.late]
+        self._sizes = runs.sizes(runs.moved)
         declared = [runs.declared(n) for n in self._free]
         known = [runs.engine.signals[runs.biased[k]].offset for k in self._offset_at]
         self.nominal = np.array(declared + known)
@@ -161,7 +161,7 @@ class ErrorsInVariables:
         nothing = np.zeros(self.size)
         values = [self._numbers(nothing), *[{self._free[k]: 1.0} for k in zeros]]
         small = {n: _STEP * values[0][n] for n in self._free[: self._shared]}
-        still = np.zeros((len(values) + 1, len(self._runs.biased)))
+        still = np.zeros((len(values) + 1, len(self._runs.moved)))
         clean, added = self._runs.rows([*values, small], still, still)
         rough = np.sqrt(np.nanmean(added[0] ** 2, axis=0))
         # the least variance that is reckoned with: sensors that never move tell no noise
@@ -208,13 +208,13 @@ class ErrorsInVariables:
 
     def _offsets(self, at: Array) -> Array:
         """The offsets of all signals that can have one at a point, above those that are known."""
-        found = np.zeros(len(self._runs.biased))
+        found = np.zeros(len(self._runs.moved))
         found[self._offset_at] = (self.values(at) - self.nominal)[len(self._free) :]
         return found
 
     def _delays(self, at: Array) -> Array:
         """The delays of all signals that can have one at a point, in samples."""
-        found = np.zeros(len(self._runs.biased))
+        found = np.zeros(len(self._runs.moved))
         found[self._late_at] = at[len(self.names) :]
         return found
 
@@ -436,11 +436,11 @@ class ErrorsInVariables:
 
     def suspects(self, at: Array, units: Mapping[str, str]) -> tuple[Suspect, ...]:
         """The offsets that would explain what is left, each by itself, the likeliest one first."""
-        wanted = [k for k in range(len(self._sizes)) if k not in self._offset_at]
+        wanted = [k for k in range(len(self._runs.biased)) if k not in self._offset_at]
         found = []
         for k, value, error, share in self._scored(at, wanted, np.diag(self._sizes), 1):
             if share > _MATTERS:
-                name, size = self._runs.names([self._runs.biased[k]])[0], float(self._sizes[k])
+                name, size = self._runs.names([self._runs.moved[k]])[0], float(self._sizes[k])
                 found.append(
                     Suspect(name, value * size, error * size, units.get(name, ""), share)
                 )
@@ -448,7 +448,7 @@ class ErrorsInVariables:
 
     def delayed(self, at: Array) -> list[int]:
         """The columns of commands that come early or late, as logs show, and are not fitted so."""
-        signals = self._runs.biased
+        signals = self._runs.moved
         wanted = [k for k, column in enumerate(signals)
                   if column in self._runs.commands and k not in self._late_at]  # fmt: skip
         return [signals[k] for k, *_ in self._scored(at, wanted, np.eye(len(signals)), 0)]

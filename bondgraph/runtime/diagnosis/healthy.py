@@ -27,9 +27,9 @@ _COUNT = 1.0  # counts by which the first one of an encoder may be off
 class Nature(NamedTuple):
     """How the code of a residual is off where nothing is wrong.
 
-    `modes` are the switches that it reads. `approximate` says that it puts filtered derivatives
-    into a nonlinear law, `stages` and `laws` how long its filters are. `drifts` if it adds up
-    readings, and their noise, for ever.
+    `modes` are the switches that it reads, `anew` those with which it starts anew. `approximate`
+    says that it puts filtered derivatives into a nonlinear law, `stages` and `laws` how long its
+    filters are. `drifts` if it adds up readings, and their noise, for ever.
     """
 
     modes: tuple[str, ...]
@@ -37,6 +37,7 @@ class Nature(NamedTuple):
     stages: int
     laws: int
     drifts: bool
+    anew: tuple[str, ...] = ()
 
 
 class DiagnosisModel(NamedTuple):
@@ -197,6 +198,8 @@ def parameters_read(
 
 def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict[str, Nature]:
     modes = {i.symbol: i.name for i in graph.inputs if i.mode}
+    path = {k.name: k.path for k in program.knowns}
+    anew = {o.residual: tuple(path[m] for m in o.modes) for o in program.openings}
     found = {}
     for residual, info in zip(residuals.residuals, program.residuals, strict=True):
         nodes = topological([residual.expr])
@@ -206,6 +209,7 @@ def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict
             info.stages,
             info.laws,
             any(n.op is Op.INT for n in nodes),
+            anew.get(info.name, ()),
         )
     return found
 

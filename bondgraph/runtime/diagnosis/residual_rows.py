@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -35,7 +35,8 @@ class ResidualRows:
 
     Beside them, what as much noise as the sensors have adds to them: always the same noise. What
     residuals have `memories` of is known from the start of a log to its first gap; `lost` are the
-    seconds by residual in which it is not.
+    seconds by residual in which it is not. The `switches` are modes that some residual reads and
+    does not start anew with.
     """
 
     def __init__(
@@ -44,6 +45,7 @@ class ResidualRows:
         pieces: Sequence[tuple[str, Piece]],
         noise: Sequence[float],
         memories: Sequence[Memory] = (),
+        switches: Collection[str] = (),
     ) -> None:
         self.engine = engine
         time = engine.sample_time
@@ -84,8 +86,14 @@ class ResidualRows:
             at for at, (known, sigma) in enumerate(zip(engine.signals, noise, strict=True))
             if known.kind == "input" and known.counts is None and not sigma
         ]  # fmt: skip
+        #: Switches that turn in the logs, by their columns.
+        self.turned = [
+            at for at, known in enumerate(engine.signals)
+            if known.kind == "mode" and known.path in switches
+            and any(np.diff(p[self.skip * self.every :, at]).any() for p in self.pieces)
+        ]  # fmt: skip
         #: The signals whose delay is fitted: others may be added.
-        self.late = [
+        self.late = self.turned + [
             at for at, known in enumerate(engine.signals)
             if known.kind in ("input", "sensor") and known.counts is None
             and any(
@@ -98,6 +106,7 @@ class ResidualRows:
             at for at, known in enumerate(engine.signals)
             if known.kind in ("input", "sensor") and known.counts is None
         ]  # fmt: skip
+        self.moved = [*self.biased, *self.turned]
         self._pool = ThreadPoolExecutor(os.cpu_count())  # compiled code runs beside all else
         draw = np.random.default_rng(1)
         self._shaken = [self._shake(p, noise, draw) for p in self.pieces]
@@ -157,9 +166,9 @@ class ResidualRows:
         """Residuals and what noise adds to them, both (sets of parameters, rows, residuals).
 
         Among the parameters of a set are the `starts`, by what they are called there.
-        `delays` (sets, signals in `biased`) in samples and `offsets`, in the units of these, are
-        what logs are cleared of. NaN where a residual is not valid, and in one row behind every
-        log.
+        `delays` (sets, signals in `moved`) in samples and `offsets`, in the units of these, are
+        what logs are cleared of; modes have no offset. NaN where a residual is not valid, and in
+        one row behind every log.
         """
         return self._added(parameters, delays, offsets, self._shaken)
 
@@ -187,8 +196,8 @@ class ResidualRows:
         for group in {tuple(row): None for row in moved.tolist()}:
             members = np.flatnonzero((moved == group).all(axis=1)).tolist()
             own = [parameters[k] for k in members]
-            late = dict(zip(self.biased, group, strict=False))
-            off = dict(zip(self.biased, group[len(self.biased) :], strict=True))
+            late = dict(zip(self.moved, group, strict=False))
+            off = dict(zip(self.moved, group[len(self.moved) :], strict=True))
             both = zip(*self._together(own, late, off, noisy), strict=True)
             for k, one in zip(members, both, strict=True):
                 found[k] = one
@@ -210,7 +219,13 @@ class ResidualRows:
 
         def through(number: int, samples: Array) -> Array:
             lasts, received = self._lasts[number], self.pieces[number]
-            return self._through(few[number], _moved(samples, late, off), received, lasts)
+            lines = {at: by for at, by in late.items() if at not in self.turned}
+            steps = {at: by for at, by in late.items() if at in self.turned}
+            parts = [
+                share * self._through(few[number], _moved(own, lines, off), received, lasts)
+                for share, own in _turned(samples, steps)
+            ]
+            return np.asarray(np.sum(parts, axis=0))
 
         every = range(len(self.pieces))
         found = self._pool.map(through, (*every, *every), (*self.pieces, *noisy))
@@ -314,6 +329,35 @@ def _held(values: Array) -> bool:
     """
     steps = np.diff(values)
     return bool(np.nansum(np.diff(steps) ** 2) > np.nansum(steps**2))
+
+
+def _turned(samples: Array, late: Mapping[int, float]) -> list[tuple[float, Array]]:
+    """Samples with modes a whole number of samples late, and how much the residuals of each count.
+
+    A mode is never half on. What it does while it is on adds up: between two whole numbers of
+    samples residuals are a straight line in the delay, as they are in a held number.
+
+    >>> turns = np.array([[0.0], [1.0], [1.0], [0.0]])
+    >>> [(share, own[:, 0].tolist()) for share, own in _turned(turns, {0: 0.75})]
+    [(0.25, [0.0, 1.0, 1.0, 0.0]), (0.75, [0.0, 0.0, 1.0, 1.0])]
+    >>> [(share, own[:, 0].tolist()) for share, own in _turned(turns, {0: -1.0})]
+    [(1.0, [1.0, 1.0, 0.0, 0.0])]
+    """
+    whole = {at: math.floor(by) for at, by in late.items()}
+    parts = {at: by - whole[at] for at, by in late.items() if by > whole[at]}
+    found = [(1.0 - sum(parts.values()), whole)]
+    found += [(part, {**whole, at: whole[at] + 1}) for at, part in parts.items()]
+    return [(share, _stepped(samples, by)) for share, by in found]
+
+
+def _stepped(samples: Array, late: Mapping[int, int]) -> Array:
+    """The samples with some columns so many samples late; what was before or is behind is held."""
+    if not any(late.values()):
+        return samples
+    found, when = samples.copy(), np.arange(len(samples))
+    for at, by in late.items():
+        found[:, at] = samples[np.clip(when - by, 0, len(samples) - 1), at]
+    return found
 
 
 def _moved(samples: Array, late: Mapping[int, float], off: Mapping[int, float]) -> Array:
