@@ -339,10 +339,14 @@ def _suspected(found: Fitted) -> list[str]:
 
 
 def _misread(compilation: Compilation, found: Fitted) -> list[str]:
-    """The inputs whose noise would look like another model, in words: they are taken as exact."""
-    if not any(left.wrong and left.follows is not None for left in found.left):
-        return []
-    inputs = [k.path for k in compilation.program.knowns if k.kind == "input"]
+    """The inputs whose noise would look like another model, in words: they are taken as exact.
+
+    Of those that the residuals read which say that the model is another.
+    """
+    sees = compilation.diagnosis_model.sees
+    read = {name for left in found.left if left.wrong and left.follows is not None
+            for name in sees.get(left.residual, ())}  # fmt: skip
+    inputs = [k.path for k in compilation.program.knowns if k.kind == "input" and k.path in read]
     exact = [name for name in inputs if not found.noise.get(name)]
     if not exact:
         return []

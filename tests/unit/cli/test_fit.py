@@ -100,6 +100,24 @@ model W { input v : m/s; param k = 2; param R = 3 N.m.s/rad +- 5%
     assert abs(tomllib.loads((folder / "p.toml").read_text())["parameters"]["R"] - 3.0) < 0.1
 
 
+def test_only_inputs_that_a_wrong_residual_reads_may_be_read_with_noise(
+    bondgraph: Command, folder: Path
+) -> None:
+    """Two circuits side by side: the law of the second is another, and its voltage is `b`."""
+    (folder / "two.bg").write_text("""bg 1
+model Two { input a : V; input b : V; param R = 2 Ohm +- 5%; param S = 2 Ohm +- 5%
+  Se:first = a; first -> 1:i; i -> R:R; i -> Df:x
+  Se:second = b; second -> 1:j; j -> R:S; j -> Df:y }""")
+    draw, t = np.random.default_rng(5), np.arange(6000) / 1000.0
+    x, y = np.sin(8.0 * t) + 0.5 * np.sin(21.0 * t), np.sin(5.0 * t) + 0.5 * np.sin(17.0 * t)
+    noise = 0.01 * draw.standard_normal((2, len(t)))
+    columns = {"a": 2.1 * x, "b": 2.1 * y + y**2, "x": x + noise[0], "y": y + noise[1]}
+    write_log(Log(t, columns, {}, {}), "two.csv")
+    done = bondgraph("fit", "two.bg", "two.csv", "-o", "p.toml")
+    assert done.status == 0, done.err
+    assert "say with how much (--noise b=DEVIATION)" in done.out
+
+
 def test_what_a_wrong_law_tells_has_no_interval_either(bondgraph: Command, folder: Path) -> None:
     """R of 3 Ohm and 1.2 V beside it, that turns with the current: the law has no such term."""
     t = np.arange(6000) / 1000.0
