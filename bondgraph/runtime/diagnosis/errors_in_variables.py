@@ -154,6 +154,11 @@ class ErrorsInVariables:
         self._weight = np.ones(len(runs.engine.residuals))
         self._start()
 
+    @property
+    def before(self) -> Array:
+        """The deviations of what is fitted before any log tells of it, relative, (p,)."""
+        return self._spread[: len(self.names)]
+
     def _start(self) -> None:
         """What is known before the first fit: the noise's own filter, scales of zeros, rows."""
         zeros = np.flatnonzero(self.scale == 0)

@@ -32,6 +32,8 @@ _ROUNDS = 5  # of weights from what is left, and parameters from weights
 _STEPS = 15  # of a round: what is left to go, along what nothing tells, the next one goes
 _ASKED = 3  # times that it is asked what nothing tells
 _TOLD = 0.3  # relative deviation below which a parameter is told
+_LEAST = 3.0  # times what no log tells over what the logs do: with less they tell next to nothing
+_SURE = 1e-9  # of what is known before: nothing is surer
 _AT_BOUND = 0.99  # of that: no more is fitted, and it may be more
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
 
@@ -96,8 +98,12 @@ def fit(
     zeros = np.where(problem.zeros, problem.scale, 0.0)
     found = combinations(
         called, values, problem.scale, zeros, null, partial(problem.cost, at[count:]),
-        partial(_more, asked[:count, :count]),
+        partial(_more, asked[:count, :count], problem.before),
     )  # fmt: skip
+    found = tuple(
+        c if c.more is not None else c._replace(still=_still(runs, model, c.parameters))
+        for c in found
+    )
     suspects = problem.suspects(at, units)
     progress(1.0)
     apart = np.where(deviation > 0, deviation, 1.0)
@@ -157,10 +163,32 @@ def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Arra
     return at, whole, null, asked
 
 
-def _more(covariance: Array, own: Sequence[int]) -> float | None:
-    """How many times the motion would tell these parameters; None if nothing tells of them now."""
-    deviation = math.sqrt(float(np.linalg.eigvalsh(covariance[np.ix_(own, own)])[-1]))
-    return deviation / _TOLD if deviation < WIDE / 3.0 else None
+def _more(covariance: Array, before: Array, own: Sequence[int]) -> float | None:
+    """How many times the motion would tell these parameters; None if nothing tells of them now.
+
+    The logs tell what the `covariance` (p, p) says beyond the deviations `before` them (p,), which
+    are those of tolerances. What they tell grows with the square of the motion.
+    """
+    wide = np.diag(before[own] ** 2)
+    known = np.diag(before[own] ** -2.0)
+    after = covariance[np.ix_(own, own)] + _SURE * wide
+    values, vectors = np.linalg.eigh(np.linalg.inv(after) - known)
+    if values[0] < (_LEAST / WIDE) ** 2:
+        return None
+    alike = vectors / np.sqrt(values)  # in which the logs tell as much of each
+    wanted = np.eye(len(own)) / _TOLD**2 - known
+    return math.sqrt(float(np.linalg.eigvalsh(alike.T @ wanted @ alike)[-1]))
+
+
+def _still(
+    runs: ResidualRows, model: DiagnosisModel, parameters: Sequence[str]
+) -> tuple[str, ...]:
+    """The inputs and switches that never move in the logs, beside which parameters are read."""
+    beside: set[str] = set()
+    for name in runs.engine.residuals:
+        if not model.reads.get(name, frozenset()).isdisjoint(parameters):
+            beside |= {*model.sees.get(name, ()), *model.natures[name].modes}
+    return tuple(name for name in runs.still() if name in beside)
 
 
 def fittable(

@@ -140,6 +140,13 @@ class ResidualRows:
             found.append(moves if moves > _STILL * stands else stands or 1.0)
         return np.array(found)
 
+    def still(self) -> list[str]:
+        """The paths of inputs and switches that never move in any log."""
+        own = [at for at, k in enumerate(self.engine.signals) if k.kind in ("input", "mode")]
+        values = np.concatenate([p[:, own] for p in self.pieces])
+        still = (np.nan_to_num(values) == np.nan_to_num(values[0])).all(axis=0)
+        return self.names([at for at, stands in zip(own, still.tolist(), strict=True) if stands])
+
     def times(self) -> list[tuple[str, Array, slice]]:
         """For each piece the name of its log, the times of its rows in s, and where these are."""
         found, begin, step = [], 0, self.every * self.engine.sample_time

@@ -22,7 +22,8 @@ class Combination(NamedTuple):
     `changes` are by how much some may change together with nothing to be seen, relative to their
     values; in their own unit for those in `zeros`, which are declared to be zero. `more` is how
     many times the motion of these logs would tell, as far as they go: None where in these logs what
-    they do not tell does next to nothing.
+    they do not tell does next to nothing. Then `still` are the inputs and switches that never move
+    in them, of those that stand in a relation with the parameters.
     """
 
     parameters: tuple[str, ...]
@@ -30,6 +31,7 @@ class Combination(NamedTuple):
     changes: tuple[dict[str, float], ...]
     zeros: tuple[str, ...] = ()
     more: float | None = None
+    still: tuple[str, ...] = ()
 
     def text(self) -> str:
         """One sentence for people.
@@ -70,6 +72,8 @@ class Combination(NamedTuple):
         'a log with 3 times the motion would tell, or 9 times as long'
         >>> Combination(("k",), "", ({"k": 1.0},)).which()
         'no log like these would tell: another motion may'
+        >>> Combination(("k",), "", ({"k": 1.0},), still=("fan", "u")).which()
+        'no log like these would tell: another motion may (fan and u stand still in them)'
 
         A common factor of all terms of a relation no motion tells. Once one of several is known
         otherwise, the logs tell the others.
@@ -82,7 +86,9 @@ class Combination(NamedTuple):
         if self.more is None and len(self.parameters) > 1 and self._ratios():
             return "no log tells their common factor: declare one that is known without a tolerance"
         if self.more is None:
-            return "no log like these would tell: another motion may"
+            stand = "stands" if len(self.still) == 1 else "stand"
+            what = f" ({joined(self.still, 'and')} {stand} still in them)" if self.still else ""
+            return f"no log like these would tell: another motion may{what}"
         much, long = f"{self.more:.2g} times the motion", f"{self.more**2:.2g} times as long"
         return f"a log with {much} would tell, or {long}"
 

@@ -774,7 +774,35 @@ def test_what_is_told_only_where_it_is_as_declared_is_said_to_need_more_motion()
     _, whole, null, asked = _declared(_Fickle(), np.zeros(2))  # type: ignore[arg-type]
     assert sorted(null.tolist()) == [[0.0, 1.0], [1.0, 0.0]]
     assert whole[1, 1] == 0.01
-    assert _more(asked, [1]) == pytest.approx(0.6 / 0.3)
+    assert _more(asked, np.full(2, 10.0), [1]) == pytest.approx(0.6 / 0.3, rel=0.01)
+
+
+def test_how_much_more_motion_would_tell_is_what_the_logs_tell_and_no_tolerance() -> None:
+    """Of a and b logs tell a + b and a - b by 4 and 1, in squares of one over deviations.
+
+    Tolerances tell of each by 1/0.8^2. What no log moves was said to want 2.7 times the motion.
+    """
+    told = 4.0 * np.array([[1.0, 1.0], [1.0, 1.0]]) / 2 + np.array([[1.0, -1.0], [-1.0, 1.0]]) / 2
+    before = np.full(2, 0.8)
+    covariance = np.linalg.inv(told + np.eye(2) / 0.8**2)
+    more = _more(covariance, before, [0, 1])
+    # with so much more a - b is as sure as asked for: more^2 + 1/0.8^2 = 1/0.3^2
+    assert more == pytest.approx(math.sqrt(1 / 0.3**2 - 1 / 0.8**2), rel=1e-6)
+    assert _more(np.diag(before**2), before, [0, 1]) is None
+
+
+def test_what_never_moves_a_residual_wants_another_motion_and_no_longer_log() -> None:
+    """A second heater is off in each sample: its power has a tolerance, which no log narrows."""
+    text = """bg 1
+    model M { input on : bool; input more : bool; param P = 12 W +- 8%; param Q = 10 W +- 8%
+      param G = 0.3 W/K +- 30%
+      Sf:heat = if(on, P, 0) + if(more, Q, 0)
+      0:t { <- heat; -> C:C = 6 J/K; -> R:g = 1/G; -> De:T } }"""
+    columns = switched(False, 25, 6)
+    columns["more"] = np.zeros(len(columns["on"]), dtype=bool)
+    (one,) = body(text, columns).combinations
+    assert one.parameters == ("Q",) and one.more is None
+    assert one.which().endswith("another motion may (more stands still in them)")
 
 
 @pytest.mark.parametrize("opens", (0.3, 2.5, 3.5))
