@@ -150,8 +150,8 @@ class Learning:
 
     @property
     def first(self) -> bool:
-        """Whether some residual has a noise, or may have with other switches, that nobody knows."""
-        return bool(self._wanted.any()) or any(self._modes)
+        """Whether some residual has a noise that nobody knows."""
+        return bool(self._wanted.any())
 
     @property
     def over(self) -> bool:
