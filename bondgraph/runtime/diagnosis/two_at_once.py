@@ -14,6 +14,7 @@ from types import MappingProxyType
 import numpy as np
 
 from bondgraph.ir.signature_matrix import DoubleFaults
+from bondgraph.runtime.diagnosis.attenuation import beside_their_noise
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.isolation import (
     BEHIND,
@@ -82,8 +83,21 @@ def pairs(
     found[:near] = [own.two for own in sized]
     found = [again._replace(changes=two.changes, whole=two.whole)
              for again, two in zip(later, found, strict=True)]  # fmt: skip
+    alone = evidence.explained([case])[0]
+    both = [np.einsum("tjr,j->tr", own, two.changes)
+            for two, own in zip(found, moved, strict=True)]  # fmt: skip
+    found = beside_their_noise(seen.noise, rows, _left(rows, case, alone), found, both)
     found = [found[k] for k in showing(seen, rows, found, moved)]
-    return evidence.explained([case])[0], sorted(found, key=lambda two: -two.whole)
+    return alone, sorted(found, key=lambda two: -two.whole)
+
+
+def _left(rows: Rows, case: Case, alone: Sequence[Explained]) -> Array:
+    """What is left of the rows beside the single fault of a size that explains most."""
+    sized = [one for one in alone if one.hypothesis.held is None]
+    if not sized:
+        return rows.value
+    best = max(sized, key=lambda one: one.evidence)
+    return rows.value - rows.slopes[:, case.hypotheses.index(best.hypothesis)] * best.change
 
 
 def searched(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import cache
 
@@ -11,11 +12,13 @@ from scipy.linalg import expm
 
 import bondgraph
 from bondgraph.compilation import Compilation
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.isolation import ExplainedPair, Rows
+from bondgraph.runtime.diagnosis.isolation import RARER, Case, Evidence, ExplainedPair, Rows
 from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.row_sums import Forms, Told
-from bondgraph.runtime.diagnosis.two_at_once import showing
+from bondgraph.runtime.diagnosis.rows import CORRELATED
+from bondgraph.runtime.diagnosis.two_at_once import pairs, showing
 from bondgraph.runtime.monitoring.verdict import Verdict, from_json, to_json
 
 _TEXT = """bg 1
@@ -266,3 +269,34 @@ def test_a_second_fault_shows_by_what_the_first_one_does_not_do(second: float, s
     a, b = (Hypothesis(name, "value", "", 1.0, False) for name in "ab")
     pair = ExplainedPair((a, b), 50.0, (1.0, 1.0))
     assert list(showing(seen, told, [pair], [slopes])) == [0] * shows
+
+
+@pytest.mark.parametrize("second", [0.0, 0.7])
+def test_two_that_only_take_noise_away_are_no_better_than_one(second: float) -> None:
+    """A supply is 14 % lower, and a reading, whose noise is that of the residual, is right.
+
+    With the supply at nothing and nothing read there would be nothing in the residual, noise or
+    not. A second fault that does something of its own is told with its size.
+    """
+    draw, count = np.random.default_rng(3), 300
+    supply = 10.0 + 3.0 * np.sin(np.arange(count))
+    noise, other = draw.standard_normal(count), np.where(np.arange(count) % 7 < 3, 1.0, -1.0)
+    slopes = np.stack([supply, noise - supply, other], axis=1)[:, :, None]
+    value = (-0.14 * supply + noise + second * other)[:, None]
+    none = np.zeros((count, 1))
+    forms = Forms(none > 0.0, np.zeros((count, LAGS, 1)))
+    rest, sigma = np.zeros((count, 0, 1)), none + 1.0 / math.sqrt(CORRELATED)
+    seen = Told(forms, value, none == 0.0, none, none, rest, sigma)
+    rows = Rows(value, none + 1.0, rest, slopes)
+    case = Case([Hypothesis(n, "gain", "", 0.3, n != "y") for n in ("U", "y", "leak")], slopes)
+    history = History(np.zeros(0))
+    singles = Evidence(rows, history).explained([case])[0]
+    alone, found = pairs(seen, rows, case, singles, (history, history), none, lambda _: None)
+    best = max(alone, key=lambda one: one.evidence)
+    told = [two for two in found if two.evidence > best.evidence + RARER]
+    assert best.fault in ("U", "y") and abs(best.change) == pytest.approx(0.13, abs=0.03)
+    if not second:
+        assert not told
+    else:
+        assert {h.fault for h in told[0].hypotheses} in ({"U", "leak"}, {"y", "leak"})
+        assert sorted(map(abs, told[0].changes)) == pytest.approx((0.13, 0.7), abs=0.2)
