@@ -243,7 +243,7 @@ class SignalChecks:
             self._needed[one.signal] = away(gone, needed, quiet, self._pause)
             self.active[one.signal] = one
         for name in (*self._names, *self._encoders.names):
-            shown = name in found or name in driven
+            shown = name in found or (name in driven and name in self.active)
             self._away[name] = 0 if shown else self._away.get(name, PAUSE) + 1
             if name in self.active and self._away[name] >= self._needed.get(name, _QUIET):
                 del self.active[name]

@@ -391,8 +391,13 @@ def test_what_an_input_does_as_never_before_is_no_fault_of_a_sensor() -> None:
     seen = {}
     for inputs in ((), ("u",)):
         checks = SignalChecks(["u", "y"], [0, 1], _STEP, inputs)
-        said = [one for k, row in enumerate(rows) for one in checks.row(k * 1.0, row, True)]
+        said, lately = [], False
+        for k, row in enumerate(rows):
+            said += checks.row(k * 1.0, row, True)
+            lately |= checks.lately("u")
         seen[inputs] = {one.signal for one in said}
+        # and no alarm of residuals is put down to an input of which nothing was told
+        assert lately == (inputs == ())
     assert seen == {(): {"u", "y"}, ("u",): set()}
 
 
