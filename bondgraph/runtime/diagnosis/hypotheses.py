@@ -109,17 +109,6 @@ class Hypothesis(NamedTuple):
             return size, self.unit
         return (size * self.level, self.unit) if self.unit else (100.0 * size, "%")
 
-    def off(self, size: float, lasted: float) -> float:
-        """How far a reading is off that is wrong by this size for so long (s), 0 where not known.
-
-        >>> [Hypothesis("p", kind, unit, 0.3, False, level=2e5).off(0.5, 10.0)
-        ...  for kind, unit in (("gain", ""), ("offset", "Pa"), ("drift", "Pa/s"))]
-        [100000.0, 0.5, 5.0]
-        """
-        if self.kind == "gain":
-            return abs(size) * self.level
-        return abs(size) * (lasted if self.kind == "drift" else 1.0)
-
 
 class _Lane:
     """One hypothesis of a bank: engines at both ends of its slope, and since when it holds."""

@@ -48,6 +48,9 @@ class Judge:
         self._engine, self._model = engine, model
         self._all = tuple(dict.fromkeys((*model.faults, *model.switches)))
         self._sizes = Sizes(engine)
+        #: Where encoders stand says nothing of how far a share takes them.
+        self._shares = {k.path: at for at, k in enumerate(engine.signals) if k.counts is None}
+        self._values: dict[str, float] = {}  # of signals, in the last row
         self.latched: Latched | None = None
         self.restart()
 
@@ -177,6 +180,8 @@ class Judge:
         assert self._compared is not None
         if not self._compared.has(row):
             self._compared.step(row, limits)
+        if len(row.samples):
+            self._values = {path: float(row.samples[-1, at]) for path, at in self._shares.items()}
         self._after += 1
         return True
 
@@ -219,16 +224,21 @@ class Judge:
         wanted = Judgement(sure, None, two)
         if best is not None:
             (one,) = [e for e in found if e.fault == best.fault]
-            off = one.hypothesis.off(one.change, time - self.latched.since)
-            wanted = Judgement(sure, best.fault, two, best.size, best.unit, off, best.probability)
-        before, told = self._wanted, self.latched.said
+            wanted = Judgement(sure, best.fault, two, best.size, best.unit, 0.0, best.probability,
+                               one.hypothesis.kind)  # fmt: skip
+        # what was said before of a signal, as it would be off by that now
+        now = self._values.get(wanted.fault or "", 0.0), time - self.latched.since
+        wanted = wanted.at(*now)
+        before, told = (None if one is None else one.at(*now)
+                        for one in (self._wanted, self.latched.said))  # fmt: skip
+        latched = self.latched._replace(said=told)
         again = before is not None and before.says(wanted)
         if before is not None and told is not None:
             again &= before.grown(told) or not wanted.grown(told)
             again &= before.surer(told) or not wanted.surer(told)
         self._wanted = wanted
-        if not news(self.latched, wanted, again, self._after - self._told):
-            if news(self.latched, wanted, True, LONGEST):  # to be told, once that is confirmed
+        if not news(latched, wanted, again, self._after - self._told):
+            if news(latched, wanted, True, LONGEST):  # to be told, once that is confirmed
                 self._next = min(self._next, self._after + _AGAIN)
             return None
         self.latched = self.latched._replace(said=wanted, times=self.latched.times + 1)

@@ -25,7 +25,7 @@ from bondgraph.text.tuples import NamedTuple
 _SURE = 0.75  # probability from which on a class is named
 _ELSE = 0.5  # of the most probable fault of a class: what none outside may be above
 _GROWN = 1.5  # times its size that a fault has to have to be told again
-_OFF = 3.0  # times as far off, of a share beside an offset: they are alike at one level only
+_OFF = 3.0  # times as far off, of a share beside an offset: where they are alike, either does
 _SURER = math.log(20.0)  # of its odds: by so much surer a fault is told again
 _CERTAIN = math.log(99.0)  # odds that are as good as any larger ones
 _AGAIN = 5  # rows between an update and the next, twice as many each time
@@ -36,8 +36,8 @@ class Judgement(NamedTuple):
     """The class that is named, () if of none, and the most probable candidate with size and unit.
 
     Where no single fault explains what was seen, `pair` are two that do, or classes of such. `off`
-    says how far the reading was off that is wrong, in its own unit, 0 where nobody knows that;
-    `probability` how probable the candidate was.
+    says how far the signal was off that is wrong, in its own unit, 0 where nobody knows that;
+    `probability` how probable the candidate was, `kind` how it is wrong (see `Hypothesis`).
     """
 
     group: tuple[str, ...]
@@ -47,6 +47,19 @@ class Judgement(NamedTuple):
     unit: str = ""
     off: float = 0.0
     probability: float | None = None
+    kind: str = ""
+
+    def at(self, value: float, lasted: float) -> Judgement:
+        """The same, off by what it says where the signal is told a value, after so long (s).
+
+        >>> share = Judgement(("i",), "i", size=-20.0, unit="%", kind="gain")
+        >>> [round(share.at(value, 9.0).off, 3) for value in (10.0, -30.0)]
+        [-2.0, 6.0]
+        """
+        if self.size is None or self.kind not in ("gain", "offset", "drift"):
+            return self
+        off = self.size * (lasted if self.kind == "drift" else 1.0)
+        return self._replace(off=off / 100.0 * value if self.unit == "%" else off)
 
     def says(self, other: Judgement) -> bool:
         """Whether it says the same, whatever the sizes: off by some, or by none as it stands.
@@ -60,13 +73,14 @@ class Judgement(NamedTuple):
     def grown(self, other: Judgement) -> bool:
         """Whether the same fault is half as large again as in another one, or as much smaller.
 
-        A share, an offset and a rate of the same reading are no two sizes that could be compared:
-        there the reading has to be three times as far off as it was.
+        A share, an offset and a rate of the same signal are no two sizes that could be compared:
+        there it has to be three times as far off now by one as by the other, or to the other side.
         """
         if self.size is None or other.size is None or self.fault != other.fault:
             return False
         if self.unit != other.unit:
-            return self.off > _OFF * other.off > 0.0
+            times = self.off / (other.off or math.inf)
+            return times != 0.0 and not (math.isnan(times) or 1.0 / _OFF <= times <= _OFF)
         return not 1.0 / _GROWN <= self.size / (other.size or math.inf) <= _GROWN
 
     def surer(self, other: Judgement) -> bool:
@@ -99,7 +113,7 @@ class Latched(NamedTuple):
         """All that `resumed` needs, as plain JSON."""
         said = self.said and [list(self.said.group), self.said.fault, self.times, self.said.pair,
                               self.said.size, self.said.unit, self.said.off,
-                              self.said.probability]  # fmt: skip
+                              self.said.probability, self.said.kind]  # fmt: skip
         return {"since": self.since, "said": said}
 
     @classmethod
@@ -117,7 +131,10 @@ class Latched(NamedTuple):
         size = None if size is None else float(size)
         unit, off = more[:2] or ("", 0.0)  # none before 2026-11-28
         chance = float(more[2]) if more[2:] and more[2] is not None else None  # nor this before -30
-        said = Judgement(tuple(group), fault, tuple(pair), size, str(unit), float(off), chance)
+        kind = str(more[3]) if more[3:] else ""  # nor this
+        said = Judgement(
+            tuple(group), fault, tuple(pair), size, str(unit), float(off), chance, kind
+        )
         return cls(since, said, int(times))
 
 

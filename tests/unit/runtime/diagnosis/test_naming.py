@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import bondgraph
@@ -65,3 +66,44 @@ def test_the_gain_of_a_thermometer_is_told_in_kelvin_and_of_a_current_in_percent
     assert told["T"].unit == "K"
     assert told["T"].size == pytest.approx((read - true) / true * 300.0)
     assert (told["P"].size, told["P"].unit) == (pytest.approx(10.0), "%")
+
+
+_THRICE = """bg 1
+model Thrice {
+    param R = 2 Ohm +- 2%
+    param Q = 3 Ohm +- 2%
+    Se:U -> 1:a
+    a -> R:r = R
+    a -> R:q = Q
+    a -> Df:i
+    sensor j : A = a.f
+    sensor v : V = q.e
+}
+"""
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_share_that_looked_like_an_offset_is_told_once_the_reading_is_elsewhere(
+    seed: int,
+) -> None:
+    """A meter that shows 28 % too little of -10.7 A, and then of 24.8 A: there it is no +3 A."""
+    made = bondgraph.compile(text=_THRICE, rate=50.0, bandwidth=5.0)
+    draw, t = np.random.default_rng(seed), np.arange(6000) / 50.0
+    current = np.where(t < 70.0, -10.7, 24.8) + 0.03 * np.sin(0.7 * t)
+    noise = draw.standard_normal((3, len(t)))
+    columns = {
+        "U": 5.0 * current,
+        "i": current * np.where(t > 60.0, 0.72, 1.0) + 0.05 * noise[0],
+        "j": current + 0.05 * noise[1],
+        "v": 3.0 * current + 0.1 * noise[2],
+    }
+    engine = made.engine()
+    samples = np.column_stack([columns[k.path] for k in engine.signals])
+    watch = made.diagnosis(engine)
+    said = [one for k in range(0, len(t), 500)
+            for one in watch.update(t[k : k + 500], engine.run(samples[k : k + 500]),
+                                    samples[k : k + 500])]  # fmt: skip
+    first, second = (v.candidates[0] for v in said if v.event == "update")
+    assert (first.fault, first.unit) == ("i", "A") and first.size == pytest.approx(3.0, abs=0.1)
+    assert (second.fault, second.unit) == ("i", "%")
+    assert second.size == pytest.approx(-28.0, abs=0.5)
