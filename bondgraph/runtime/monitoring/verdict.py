@@ -163,6 +163,12 @@ def described(verdict: Verdict) -> str:
     ...     Candidate("U", None, "V", 1.0, stands=6.7),))))
     U since 5.030 s: U (100 %, stands at 6.7 V); r2 at 3.1 times its threshold
 
+    What a further row has to confirm has no class yet:
+
+    >>> print(described(Verdict("update", 5.2, 5.03, {"r2": 3.14}, (), (
+    ...     Candidate("J", None, "kg.m^2", 1.0),))))
+    not confirmed yet, since 5.030 s: J (100 %); r2 at 3.1 times its threshold
+
     What no sample tells, many rows do:
 
     >>> print(described(Verdict("update", 5.2, 5.03, {"r2": 0.4}, ("J",))))
@@ -172,10 +178,11 @@ def described(verdict: Verdict) -> str:
         text = listed(verdict.group, "or")
     else:
         text = "not clear yet which fault," if verdict.candidates else "an unknown fault"
+        text = "not confirmed yet," if len(verdict.candidates) == 1 else text
     text += _since(verdict)
     sized = any(c.size is not None or c.stands is not None for c in verdict.candidates)
     apart = len({c.probability for c in verdict.candidates}) > 1
-    if apart or sized or 0 < len(verdict.candidates) < len(verdict.group):
+    if apart or sized or 0 < len(verdict.candidates) != len(verdict.group):
         text += ": " + listed([_candidate(c) for c in verdict.candidates], "or", 5)
     elif len(verdict.candidates) > 1:
         text += ", equally likely"
