@@ -12,13 +12,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from bondgraph.runtime.diagnosis.isolation import ExplainedPair, Rows
+from bondgraph.runtime.diagnosis.noise import stepped
 from bondgraph.runtime.diagnosis.rows import CORRELATED
 from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 
 _QUIET = 0.5  # of the noise: a reading that is twice what it was is no worse a measurement
 _MEDIAN = 1.2  # deviation of a deviation by the median of n sizes, times the root of n
-_NORMAL = 0.6745  # the median of the size of normal numbers, in deviations
 
 
 def beside_their_noise(
@@ -61,8 +61,4 @@ def beside_their_noise(
 
 def _rough(values: Array, known: Mask) -> Array:
     """The deviation of white noise whose neighbours differ as known values (n, residuals) do."""
-    steps = np.abs(np.diff(values, axis=0))
-    found = np.zeros(values.shape[1])
-    for k, both in enumerate((known[1:] & known[:-1]).T):
-        found[k] = np.median(steps[both, k]) if both.any() else 0.0
-    return found / (_NORMAL * math.sqrt(2.0))
+    return np.array([stepped(column) for column in np.where(known, values, math.nan).T])

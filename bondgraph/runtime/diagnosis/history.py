@@ -113,13 +113,8 @@ class History:
             self._known = self.root, known
         return self._known[1]
 
-    def fit(self) -> Array:
-        """By how much the parameters are off, most probably."""
-        known = self.known()
-        return np.asarray(self.prior * np.linalg.solve(known[:, :-1], known[:, -1]))
-
     def fit_within(self) -> Array:
-        """The same without one that is further off than its tolerance."""
+        """By how much the parameters are off, most probably, none by more than its tolerance."""
         known = self.known()
         return np.asarray(self.prior * within_tolerance(known[:, :-1], known[:, -1]))
 

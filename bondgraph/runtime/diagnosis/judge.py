@@ -48,8 +48,8 @@ class Judge:
         self._engine, self._model = engine, model
         self._all = tuple(dict.fromkeys((*model.faults, *model.switches)))
         self._sizes = Sizes(engine)
-        #: Where encoders stand says nothing of how far a share takes them.
-        self._shares = {k.path: at for at, k in enumerate(engine.signals) if k.counts is None}
+        #: Columns of signals; where encoders stand says nothing of how far a share takes them.
+        self._places = {k.path: at for at, k in enumerate(engine.signals) if k.counts is None}
         self._values: dict[str, float] = {}  # of signals, in the last row
         self.latched: Latched | None = None
         self.restart()
@@ -181,7 +181,7 @@ class Judge:
         if not self._compared.has(row):
             self._compared.step(row, limits)
         if len(row.samples):
-            self._values = {path: float(row.samples[-1, at]) for path, at in self._shares.items()}
+            self._values = {path: float(row.samples[-1, at]) for path, at in self._places.items()}
         self._after += 1
         return True
 

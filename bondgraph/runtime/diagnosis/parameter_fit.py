@@ -33,7 +33,7 @@ _STEPS = 15  # of a round: what is left to go, along what nothing tells, the nex
 _ASKED = 3  # times that it is asked what nothing tells
 _TOLD = 0.3  # relative deviation below which a parameter is told
 _LEAST = 3.0  # times what no log tells over what the logs do: with less they tell next to nothing
-_SURE = 1e-9  # of what is known before: nothing is surer
+_FLOOR = 1e-9  # of the variance before any log: no covariance is taken for less
 _AT_BOUND = 0.99  # of that: no more is fitted, and it may be more
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
 
@@ -171,7 +171,7 @@ def _more(covariance: Array, before: Array, own: Sequence[int]) -> float | None:
     """
     wide = np.diag(before[own] ** 2)
     known = np.diag(before[own] ** -2.0)
-    after = covariance[np.ix_(own, own)] + _SURE * wide
+    after = covariance[np.ix_(own, own)] + _FLOOR * wide
     values, vectors = np.linalg.eigh(np.linalg.inv(after) - known)
     if values[0] < (_LEAST / WIDE) ** 2:
         return None
