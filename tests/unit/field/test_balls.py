@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-import pytest
-from flint import arb
+from collections.abc import Iterator
 
-from bondgraph.field.balls import zero_of
+import pytest
+from flint import arb, ctx
+
+from bondgraph.field.balls import Precision, zero_of
 from bondgraph.field.numbers import Number, Undefined
+
+
+@pytest.fixture(autouse=True)
+def bits() -> Iterator[None]:
+    """As many as the reals of a model begin with, whatever ran before."""
+    with ctx.workprec(Precision().bits):
+        yield
 
 
 def test_a_jump_over_zero_is_no_solution() -> None:
