@@ -134,6 +134,7 @@ class Diagnosis:
         self._before = copied(self._bank.engine)
         self._ends = False  # whether the present samples complete a row
         self._spikes: list[tuple[float, Mask]] = []  # until when residuals show one that was told
+        self._outlasted = False  # whether residuals are back, and a signal is still unusual
         self._status.restart()
         self._detection.restart()
         self._judge.restart()
@@ -321,7 +322,7 @@ class Diagnosis:
         ):
             known = self._judge.best
             ending = self._judge.said and self._detection.ending(own, self._limits)
-            if not (self._unusual() or ending):
+            if not (self._unusual() or ending or self._outlasted):
                 self._explain(row, out)
             if known is None and self._judge.best is not None:
                 self._detection.reconsider()
@@ -476,6 +477,7 @@ class Diagnosis:
     def _over(self, row: Row, own: Row, out: list[Verdict]) -> None:
         """A fault is over when its residuals have been quiet for long enough, and its signal."""
         over = self._detection.over(own, self._limits, self._judge.moves)
+        self._outlasted = over and bool(self._checks.active)
         known = self._checkpoints.returned(row, self._checkpoint)
         what = "back to what a healthy machine does; what was said stays said"
         if known is not None:

@@ -217,12 +217,12 @@ def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict
 def centred(model: DiagnosisModel, residuals: Sequence[str]) -> list[bool]:
     """Which residuals may stand elsewhere than at zero: the mean of their noise is where they do.
 
-    Not those that drift or are approximations, nor those that stand elsewhere with each position of
-    a switch, or after each start.
+    Not those that drift, nor those that stand elsewhere with each position of a switch, or after
+    each start.
     """
     remembers = {r for m in model.memories for r in m.residuals}
     natures = [(r, model.natures[r]) for r in residuals]
-    return [not (n.approximate or n.drifts or n.modes or r in remembers) for r, n in natures]
+    return [not (n.drifts or n.modes or r in remembers) for r, n in natures]
 
 
 def tolerated(

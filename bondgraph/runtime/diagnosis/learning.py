@@ -61,9 +61,9 @@ class Learning:
     less than a ten-thousandth of what signals have moved the residual by (see `_least`), nor for
     less than what a single sample of the first rows has shown.
 
-    A residual that drifts or is an approximation has no such noise. What neighbouring rows differ
-    by is, and where it has come to: no sample can tell that from a machine that is well, and no sum
-    of it tells anything. Where an approximation is far off it is `hopeless`.
+    A residual that drifts has no such noise. What neighbouring rows differ by is, and where it has
+    come to: no sample can tell that from a machine that is well, and no sum of it tells anything.
+    An approximation that is far off from the start is `hopeless`.
 
     Noise is learned for each position of the switches that a residual reads: it comes from other
     readings then. Where they never rest for long, it is learned for all of them together. And it is
@@ -110,11 +110,10 @@ class Learning:
         self._driving = Driving([place[path] for path in paths], reading, pace, apart)
         self._approximate = np.array([n.approximate for n in natures], dtype=bool)
         self._drifts = np.array([n.drifts for n in natures], dtype=bool)
-        self._stays = self._approximate | self._drifts
         self._centred = centred(model, engine.residuals)
         remembers = {r for m in model.memories for r in m.residuals}
-        self._rests = [not stays and r not in remembers
-                       for r, stays in zip(engine.residuals, self._stays, strict=True)]  # fmt: skip
+        self._rests = [not (n.drifts or n.approximate) and r not in remembers
+                       for r, n in zip(engine.residuals, natures, strict=True)]  # fmt: skip
         counted = {k.path for k in engine.signals if k.counts is not None}
         sums = {r for m in model.memories if m.integral and not counted & set(m.signals)
                 for r in m.residuals}  # fmt: skip
@@ -130,7 +129,7 @@ class Learning:
         rows = 1.0 / (rows_apart(engine) * engine.sample_time)
         limit = Limit(math.inf, crossings, kappa(crossings, alarms), height(rows, alarms))
         self.limits = np.tile(np.array(limit, dtype=float), (len(used), 1))
-        self.limits[self._stays, 3] = math.inf
+        self.limits[self._drifts, 3] = math.inf
         self.limits[:, 13] = [0.0 if modes else math.inf for modes in self._modes]
         self._acted = np.zeros(len(used))  # what half a sample of the commands made at most
         values = [h for h in known if h.kind == "value"]
@@ -400,14 +399,14 @@ class Learning:
             return False
         found = noise(values, float(owed[k]), self._centred[k])
         kappa = float(self.limits[k, 2])
-        spread = CAREFUL * stepped(values) if self._stays[k] else found.foreseen(kappa)
+        spread = CAREFUL * stepped(values) if self._drifts[k] else found.foreseen(kappa)
         least = max(spread, float(self._least(spread)[k]))
         top, bottom = self._highest[:, k].tolist()
         highest = max(top - found.mean, bottom + found.mean, 0.0) / kappa
-        if self._approximate[k] and highest > _HOPELESS * least:
+        if self._wanted[k] and self._approximate[k] and highest > _HOPELESS * least:
             self.hopeless[k], self._wanted[k] = True, False
             return False
-        sigma = max(least, (_BIASED if self._stays[k] else _ABOVE) * highest)
+        sigma = max(least, (_BIASED if self._drifts[k] else _ABOVE) * highest)
         if not 0.0 < sigma < math.inf:
             return False
         self._sigma[k][whole] = sigma
@@ -415,8 +414,7 @@ class Learning:
         unknown, self._wanted[k] = bool(self._wanted[k]), False
         self.unsure[k] = False
         self._forgotten.pop(k, None)
-        often = math.ceil(_MORE * (self._counts[k] - held))
-        self._due[k] = _MOST + 1 if self._approximate[k] else often
+        self._due[k] = math.ceil(_MORE * (self._counts[k] - held))
         left = np.where(np.isfinite(values), beyond[:, k], math.nan)
         self.off[k] = self._rests[k] and _off(left, float(owed[k]))
         self.off[k] |= bool(self.declared[k]) and _elsewhere(left)
@@ -427,7 +425,7 @@ class Learning:
             self.limits[k, 13] = self._acted[k]
         if self._drifts[k]:
             self.limits[k, 12] = wander(values).most
-        if not (self._stays[k] or self._modes[k]):
+        if not (self._drifts[k] or self._modes[k]):
             own = np.where(np.isfinite(values), average[:, k], math.nan)
             wider = self.limits[k, 0] / spread if spread > 0.0 else 1.0
             self.limits[k, 6:12] = self._averages(k, own, float(owed[k]), found.mean, wider)

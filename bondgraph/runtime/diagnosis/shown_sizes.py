@@ -64,8 +64,8 @@ class _Seen(NamedTuple):
 
 class _Known(NamedTuple):
     """Of rows of a window, (rows, ...): what a watch leaves room for that knows the machine, and
-    for what is not known of it, slopes by tolerated parameters, what no parameter explains; and what
-    it knows."""
+    for what is not known of it, slopes by tolerated parameters, what no parameter explains, and
+    what it knows."""
 
     room: Array
     unknown: Array
