@@ -159,8 +159,7 @@ class Diagnosis:
         self._last = []
         for part in self._parts(time, batch, samples, out):
             if self._learning is not None:
-                healthy = not self._detection.alarmed
-                fresh = self._learning.part(part, healthy, self._doubt.acted)
+                fresh = self._learning.part(part, self._healthy, self._doubt.acted)
                 self._status.relearning(float(part.time[0]), fresh, out)
                 if self._learning.anew:
                     self._checkpoints.clear()
@@ -177,6 +176,11 @@ class Diagnosis:
             if row is not None:
                 self._judged(row, out)
         return out
+
+    @property
+    def _healthy(self) -> bool:
+        """Whether nothing is wrong, as far as is told."""
+        return not (self._detection.alarmed or self._checks.active)
 
     def look(self, time: Array, batch: Batch, samples: Array) -> None:
         """Samples that were judged before: only what is remembered of them is wanted."""
@@ -253,8 +257,7 @@ class Diagnosis:
         it reads, and so a noisy sensor moves others. What is named already stays named beside what
         does not last, or does not move all that has fired.
         """
-        before = set(self._checks.active)
-        healthy = not (self._detection.alarmed or before)
+        before, healthy = set(self._checks.active), self._healthy
         suspects = self._seen_by_all() if self._detection.alarmed else []
         for one in self._checks.row(row.time, row.samples, healthy, suspects):
             first = not self._detection.alarmed and not before
@@ -304,7 +307,7 @@ class Diagnosis:
         row.leave_out(self._passing(row.time))
         if self._learning is not None:
             settling = self._learning.settling
-            fresh = self._learn(row, healthy=not self._detection.alarmed)
+            fresh = self._learn(row, self._healthy)
             self._status.learned(row.time, fresh, self._learning, out)
             if self._learning.over:
                 self._learning = None
@@ -366,7 +369,7 @@ class Diagnosis:
 
         While noise is being learned nobody knows how much a row is worth: it waits.
         """
-        if self._detection.suspects(row, self._limits):
+        if self._checks.active or self._detection.suspects(row, self._limits):
             self._calm.clear()
             return
         self._calm.append(row)

@@ -46,13 +46,16 @@ def rare_steps(steered: Array, commands: int = 0) -> Mask:
     return rare
 
 
+def answered(steps: Array) -> Array:
+    """The largest of the steps (n,) to a sample and to as many before it as sensors may be late."""
+    behind = [np.concatenate([np.zeros(k), steps[: len(steps) - k]]) for k in range(_LATE + 1)]
+    return np.asarray(np.max(behind, axis=0))
+
+
 def answers(rare: Mask) -> Mask:
     """At which samples, (n, 1), sensors may answer to such steps.
 
     >>> answers(np.arange(9)[:, None] == 4)[:, 0].nonzero()[0].tolist()
     [4, 5, 6]
     """
-    found: Mask = np.asarray(rare.any(axis=1, keepdims=True))
-    behind = [np.concatenate([np.zeros_like(found[:k]), found[: len(found) - k]])
-              for k in range(_LATE + 1)]  # fmt: skip
-    return np.asarray(np.any(behind, axis=0))
+    return answered(1.0 * rare.any(axis=1))[:, None] > 0.0

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.diagnosis.input_moves import InputMoves
-from bondgraph.runtime.diagnosis.rare_steps import answers, rare_steps, sizes
+from bondgraph.runtime.diagnosis.rare_steps import answered, answers, rare_steps, sizes
 from bondgraph.runtime.diagnosis.rows import PAUSE, away
 from bondgraph.runtime.diagnosis.standing_encoders import StandingEncoders
 from bondgraph.runtime.log import Array, Mask
@@ -97,8 +97,9 @@ class SignalChecks:
     them, or one of the `modes` by their columns, makes a step that is rare, a sensor may answer
     with a peak of a sample or two, as the current into a capacitor that is switched on: no spike
     is looked for there, until enough such answers are known: then one twice as far out as any of
-    them is a spike, behind a step no larger than those that were answered. Of `encoders`, by their
-    columns, is told which stands still while others go on.
+    them is a spike, and behind a step that is larger than ever one that is as much farther out than
+    the signal ever was. Of `encoders`, by their columns, is told which stands still while others go
+    on.
     """
 
     def __init__(
@@ -467,7 +468,8 @@ class SignalChecks:
         larger = answers(rare & (sizes(steered) > self._stepped))[own]
         known = beside & ~larger & (self._answer[1] >= _ENOUGH)
         usual = known & (single <= _OUT * self._answer[0])
-        spike = np.where(usual | (beside & ~known), 0.0, single)
+        usual |= beside & ~known & (~larger | (single <= self._at_most(steered, rare)[own]))
+        spike = np.where(usual, 0.0, single)
         answer = np.where(beside, single, 0.0).max(axis=0)
         explained = self._explained(spike)
         spike = np.where(explained, 0.0, spike)
@@ -479,6 +481,18 @@ class SignalChecks:
         count = np.broadcast_to(beside.sum(axis=0), size.shape)
         far = np.stack([spike.max(axis=0), size, alone.max(axis=0), answer, count])
         return far, np.median(off, axis=0), moved, where + 2 * _SIDE
+
+    def _at_most(self, steered: Array, rare: Mask) -> Array:
+        """How far out signals may be beside steps that are larger than ever, (n, signals).
+
+        In proportion to the largest that there were; anywhere, where there were none.
+        """
+        steps, known = np.where(rare, sizes(steered), 0.0), self._stepped > 0.0
+        times = steps / np.where(known, self._stepped, 1.0)
+        most = answered(times.max(axis=1, initial=0.0))[:, None]
+        most = most * _OUT * np.maximum(self._far, self._answer[0])
+        anywhere = answered(steps[:, ~known].max(axis=1, initial=0.0))[:, None] > 0.0
+        return np.where(anywhere, math.inf, most)
 
     def _lonely(self, spike: Array, out: Array) -> Array:
         """The spikes beside which no sample is nearly as far `out`, but for those next to them."""

@@ -13,7 +13,10 @@ import pytest
 import bondgraph
 from bondgraph import Course, Scenario
 from bondgraph.runtime.diagnosis.detection import Detection
+from bondgraph.runtime.diagnosis.learning import Learning
+from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.signal_checks import SignalChecks
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.runtime.simulation.scenario import Fault, Sampling
 
@@ -71,6 +74,27 @@ def test_what_is_over_but_for_a_signal_is_not_explained_when_that_is_as_ever(
     told = [v for v in said if v.event in ("fault", "update", "cleared")][:2]
     assert [v.event for v in told] == ["fault", "cleared"]
     assert 3.5 <= told[1].time < 3.52
+
+
+def test_rows_in_which_a_signal_is_unusual_tell_nothing_of_noise(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    seen: dict[float, bool] = {}
+    learns = Learning.row
+
+    def learned(self: Learning, row: Row, healthy: bool, held: Array) -> Mask:
+        seen[row.time] = healthy
+        return learns(self, row, healthy, held)
+
+    def row(checks: SignalChecks, time: float, *_: object) -> list[object]:
+        checks.active = {"q": 0} if 2.0 < time < 2.5 else {}
+        return []
+
+    monkeypatch.setattr(Learning, "row", learned)
+    monkeypatch.setattr(SignalChecks, "row", row)
+    _watched()
+    assert len(seen) > 100
+    assert all(healthy != (2.0 < time < 2.5) for time, healthy in seen.items())
 
 
 def _watched(*faults: Fault) -> list[Verdict]:

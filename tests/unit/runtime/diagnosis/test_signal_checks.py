@@ -524,11 +524,14 @@ def test_a_spike_at_a_step_of_a_slow_controller_is_one_once_its_answers_are_know
     assert one.since == pytest.approx((3500 + late) * _STEP, abs=1.5 * _STEP)
 
 
-@pytest.mark.parametrize(("step", "told"), [(1.0, True), (4.0, False)])
-def test_a_step_larger_than_ever_is_answered_by_as_much_more(step: float, told: bool) -> None:
+@pytest.mark.parametrize(("step", "peak", "told"), [(1.0, 0.8, True), (4.0, 0.8, False),
+                                                    (4.0, 2.4, True)])  # fmt: skip
+def test_a_step_larger_than_ever_is_answered_by_as_much_more(
+    step: float, peak: float, told: bool
+) -> None:
     command, current = _slow_controller(4000)
     command[3500:] += step - 1.0 if command[3500] > command[3499] else 1.0 - step
-    current[3500] = 0.2 * step if not told else 0.8  # as of a step four times as large
+    current[3500] = peak  # a step of one is answered by 0.2
     assert bool(_switched(np.column_stack([command, current]), "command")) == told
 
 
