@@ -58,15 +58,26 @@ class Wanted(NamedTuple):
     offsets: tuple[str, ...] = ()
 
 
-def _inverse(curved: Array, spread: Array) -> Array:
-    """The inverse of a curvature (p, p) and what is known before, which is `spread` (p,).
+def _axes(curved: Array, spread: Array) -> tuple[Array, Array]:
+    """A curvature (p, p) and what is known before, which is `spread` (p,), by its axes.
 
-    In units of the spread that is one, and so no sum is singular, however well the logs tell.
+    That is the inverse of their sum as `vectors` (p, p) with `shares` (p,) of what was known that
+    are left. In units of the spread what is known is one, and so no sum is singular, however well
+    the logs tell.
     """
-    wide = np.diag(spread)
-    values, vectors = np.linalg.eigh(wide @ curved @ wide)
-    vectors = wide @ vectors
-    return np.asarray((vectors / (1.0 + np.maximum(values, 0.0))) @ vectors.T)
+    values, vectors = np.linalg.eigh(curved * np.outer(spread, spread))
+    return spread[:, None] * vectors, 1.0 / (1.0 + np.maximum(values, 0.0))
+
+
+def _sandwich(curved: Array, scatter: Array, spread: Array) -> Array:
+    """The covariance (p, p) of what is fitted, of a curvature and the scatter of its slope (p, p).
+
+    It is made axis by axis: where all axes are summed first, what rounding makes of those that
+    logs tell well is more than all that is known of one that they do not tell.
+    """
+    axes, shares = _axes(curved, spread)
+    inner = axes.T @ (scatter + np.diag(spread**-2.0)) @ axes
+    return np.asarray(axes @ (np.outer(shares, shares) * inner) @ axes.T)
 
 
 def _coloured(moves: Mask) -> NDArray[np.int_]:
@@ -380,7 +391,8 @@ class ErrorsInVariables:
                 by[:, ~mask, r] = 0.0
                 by[:, mask, r] = (by[:, mask, r] @ whole) @ whole.T
         curved = np.einsum("atr,btr->ab", by, by) + self._pins.T @ self._pins
-        away = _inverse(curved, self._spread) @ np.einsum("atr,tr->a", by, value)
+        axes, shares = _axes(curved, self._spread)
+        away = (axes * shares) @ (axes.T @ np.einsum("atr,tr->a", by, value))
         return np.asarray(away[: len(self.names)])
 
     def bound(self, at: Array) -> Mask:
@@ -404,10 +416,8 @@ class ErrorsInVariables:
         own = np.einsum("tr,atr->ta", s.value, s.by)
         mine = np.einsum("tr,atr->ta", s.added, s.added_by)
         scatter = newey_west(own) + newey_west(mine)
-        prior = np.diag(self._spread**-2.0)
-        inverse = _inverse(curved, self._spread)
         scatter *= few_rows(len(own)) ** 2 * len(own) / max(len(own) - len(at), 1)
-        return np.asarray(inverse @ (scatter + prior) @ inverse)
+        return _sandwich(curved, scatter, self._spread)
 
     def apart(self, at: Array) -> Array:
         """How far parameters may stand from here in a further log, in 95 of 100, relative.
@@ -478,7 +488,8 @@ class ErrorsInVariables:
         apart = [(m[: len(wanted)] - m[len(wanted) :]) / (2 * _STEP) for m in moved]
         by, noisy = s.by.reshape(len(at), -1), s.added_by.reshape(len(at), -1)
         curved = by @ by.T - noisy @ noisy.T + self._pins.T @ self._pins
-        inverse = _inverse(curved, self._spread)
+        axes, shares = _axes(curved, self._spread)
+        inverse = (axes * shares) @ axes.T
         for k, slope, shaken in zip(wanted, *apart, strict=True):
             follow = inverse @ (by @ slope.ravel() - noisy @ shaken.ravel())
             alone = slope - np.tensordot(follow, s.by, 1)

@@ -75,7 +75,7 @@ def fit(
     bound = problem.bound(at)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
     left = problem.left(at)
-    spread = float(np.linalg.slogdet(covariance)[1]) / (2.0 * count)
+    spread = _spread(covariance)
     if any(x.much for x in left):
         noisy, much = deviation, [x.much for x in left]
         deviation = np.hypot(noisy, problem.disturbed(at, much))
@@ -163,20 +163,31 @@ def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Arra
     return at, whole, null, asked
 
 
+def _spread(covariance: Array) -> float:
+    """The logarithm of the deviations by a covariance (p, p), in the mean of its axes.
+
+    An axis of which only rounding is left, beside one that nothing tells, tells no more than that.
+    """
+    values = np.linalg.eigvalsh(covariance)
+    least = len(values) * np.finfo(float).eps * values[-1]
+    return float(np.log(np.maximum(values, least)).mean() / 2.0)
+
+
 def _more(covariance: Array, before: Array, own: Sequence[int]) -> float | None:
     """How many times the motion would tell these parameters; None if nothing tells of them now.
 
     The logs tell what the `covariance` (p, p) says beyond the deviations `before` them (p,), which
     are those of tolerances. What they tell grows with the square of the motion.
     """
-    wide = np.diag(before[own] ** 2)
-    known = np.diag(before[own] ** -2.0)
-    after = covariance[np.ix_(own, own)] + _FLOOR * wide
-    values, vectors = np.linalg.eigh(np.linalg.inv(after) - known)
-    if values[0] < (_LEAST / WIDE) ** 2:
-        return None
+    known = before[own] ** -2.0
+    after = covariance[np.ix_(own, own)]
+    least = np.sqrt(known + (_LEAST / WIDE) ** 2)  # one over deviations that next to nothing leaves
+    if np.linalg.eigvalsh(after * np.outer(least, least))[-1] > 1.0:
+        return None  # asked before anything is inverted: what nothing tells has no inverse
+    after += _FLOOR * np.diag(before[own] ** 2)
+    values, vectors = np.linalg.eigh(np.linalg.inv(after) - np.diag(known))
     alike = vectors / np.sqrt(values)  # in which the logs tell as much of each
-    wanted = np.eye(len(own)) / _TOLD**2 - known
+    wanted = np.eye(len(own)) / _TOLD**2 - np.diag(known)
     return math.sqrt(float(np.linalg.eigvalsh(alike.T @ wanted @ alike)[-1]))
 
 

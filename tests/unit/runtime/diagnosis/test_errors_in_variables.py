@@ -10,7 +10,7 @@ import pytest
 
 import bondgraph
 from bondgraph import Course, Log, Scenario
-from bondgraph.runtime.diagnosis.errors_in_variables import ErrorsInVariables, Wanted
+from bondgraph.runtime.diagnosis.errors_in_variables import ErrorsInVariables, Wanted, _sandwich
 from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.monitoring.whole_logs import stretches
 
@@ -67,3 +67,16 @@ def test_slopes_that_are_taken_at_once_are_those_that_are_taken_one_by_one() -> 
     for a, b in zip(one, other, strict=True):
         assert np.abs(a - b).max() <= 1e-9 * np.abs(b).max()
     assert one.by.any(axis=(1, 2)).all(), names
+
+
+def test_what_logs_tell_well_is_as_sure_beside_what_they_do_not_tell() -> None:
+    """Of three parameters logs tell ratios, far better than they were known before.
+
+    Along what they do not tell is what was known, across it the scatter over the square of the
+    curvature: summed first, rounding made 2800 times as much of it, below zero.
+    """
+    along = np.full(3, 3**-0.5)
+    told = np.eye(3) - np.outer(along, along)
+    found = _sandwich(1e9 * told, 1e11 * told, np.full(3, 5.0))
+    assert along @ found @ along == pytest.approx(25.0, rel=0.01)
+    assert np.linalg.eigvalsh(found)[:2] == pytest.approx([1e11 / 1e18] * 2, rel=0.01)

@@ -13,7 +13,7 @@ from scipy.stats import t
 import bondgraph
 from bondgraph import Course, Instrument, Log, Sampling, Scenario
 from bondgraph.runtime.diagnosis.fitted import Fitted, Fitting
-from bondgraph.runtime.diagnosis.parameter_fit import _declared, _more
+from bondgraph.runtime.diagnosis.parameter_fit import _declared, _more, _spread
 from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.diagnosis.whitening import newey_west, whitening
 
@@ -789,6 +789,19 @@ def test_how_much_more_motion_would_tell_is_what_the_logs_tell_and_no_tolerance(
     # with so much more a - b is as sure as asked for: more^2 + 1/0.8^2 = 1/0.3^2
     assert more == pytest.approx(math.sqrt(1 / 0.3**2 - 1 / 0.8**2), rel=1e-6)
     assert _more(np.diag(before**2), before, [0, 1]) is None
+
+
+def test_what_nothing_tells_is_named_however_well_the_logs_tell_the_rest() -> None:
+    """A disturbance may scatter what nothing holds by a million times its value.
+
+    No number has the digits for that beside what is known to a thousandth: where it was inverted,
+    the fit ended with "Singular matrix".
+    """
+    along = np.array([0.97, -0.2, -0.1])
+    covariance = 1e13 * np.outer(along, along) + 1e-6 * np.eye(3)
+    assert _more(covariance, np.array([5.0, 7.0, 10.0]), [0, 1, 2]) is None
+    assert _spread(covariance) > _spread(1e-3 * np.eye(3))
+    assert _spread(np.diag([0.04, 0.09])) == pytest.approx(math.log(0.2 * 0.3) / 2)
 
 
 def test_what_never_moves_a_residual_wants_another_motion_and_no_longer_log() -> None:
