@@ -242,8 +242,8 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
         lines += ["", "Without an interval: they fit best, but the residuals that tell them hold"
                   " more than noise (see below)"]  # fmt: skip
     if found.combinations:
-        lines += ["", "What the logs cannot tell (the values of such parameters are no better known"
-                  " than as declared)"]  # fmt: skip
+        lines += ["", "What the logs cannot tell (such parameters are no better known than as"
+                  " declared, or too small to be told)"]  # fmt: skip
         for c in found.combinations:
             lines += [f"  {c.text()}", f"    {c.which()}"]
     lines += ["", f"How well it fits (filter of {found.bandwidth:.4g} rad/s)"]

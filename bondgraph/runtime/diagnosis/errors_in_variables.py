@@ -218,6 +218,16 @@ class ErrorsInVariables:
         """What is fitted at a point, in SI."""
         return np.asarray(self.nominal + self.scale * at[: len(self.names)])
 
+    def sizes(self, at: Array) -> Array:
+        """How large what is fitted is at a point, as a multiple of its scale (p,).
+
+        What may be on either side of zero, as an offset or a start, is reckoned to be one scale.
+        """
+        found = np.abs(self.values(at)) / self.scale
+        found[self.zeros] = 1.0
+        found[self._shared :] = 1.0
+        return np.asarray(found)
+
     def _numbers(self, at: Array) -> dict[str, float]:
         """The parameters at a point, in SI."""
         return dict(zip(self._free, self.values(at).tolist(), strict=False))
@@ -239,7 +249,7 @@ class ErrorsInVariables:
         own = [[self._delays(p) for p in points], [self._offsets(p) for p in points]]
         delays, offsets = np.array(own) + more
         clean, added = self._runs.rows([self._numbers(p) for p in points], delays, offsets)
-        return clean - self._bent, added
+        return clean - self._bent * rms(added)[:, None, :], added
 
     def _white(
         self, points: Sequence[Array], more: Array | float = 0.0
@@ -291,6 +301,10 @@ class ErrorsInVariables:
         """The parameters that leave least, with the weights as they are; after `most` steps."""
         return least(at, self._low, self._high, self._descent, self._costs, _ENOUGH, most)
 
+    def best(self, points: Sequence[Array]) -> Array:
+        """The one of some points that leaves least, with the weights as they are."""
+        return points[int(np.nanargmin(self._costs(points)))]
+
     def _known(self) -> Array:
         """What is known before any log, as rows (n, p) of which the squares are added."""
         return np.vstack([np.diag(1.0 / self._spread), self._pins])
@@ -326,7 +340,7 @@ class ErrorsInVariables:
         changes; where that would make zeros of all parameters, it is a weight alone. It is there
         from the `first` point on: a parameter that divides what is noisy would else be made
         nothing of, so that noise drowns what the model is off by. What noise moves residuals by to
-        one side is taken off as it is here.
+        one side is taken off as it is here, beside all that it adds: that shrinks with parameters.
         """
         self._bent = self._runs.bent(self._numbers(at), self._delays(at), self._offsets(at))
         if not first:

@@ -23,7 +23,7 @@ from bondgraph.runtime.diagnosis.fitted import SURE, Delay, Fitted, Fitting, Sta
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.diagnosis.told_combinations import combinations, untold
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
 
@@ -31,7 +31,7 @@ _FIRST = 2  # rounds with all rows: by what the declared parameters leave, no de
 _ROUNDS = 5  # of weights from what is left, and parameters from weights
 _STEPS = 15  # of a round: what is left to go, along what nothing tells, the next one goes
 _ASKED = 3  # times that it is asked what nothing tells
-_TOLD = 0.3  # relative deviation below which a parameter is told
+_TOLD = 0.3  # deviation below which a parameter is told, relative to its value
 _LEAST = 3.0  # times what no log tells over what the logs do: with less they tell next to nothing
 _FLOOR = 1e-9  # of the variance before any log: no covariance is taken for less
 _AT_BOUND = 0.99  # of that: no more is fitted, and it may be more
@@ -70,7 +70,7 @@ def fit(
         at = _solved(problem, at, lambda _: None)  # what is told goes on, not back
     names = problem.names
     count = len(names)
-    at, whole, null, asked = _declared(problem, at)
+    at, whole, null, small, more = _declared(problem, at)
     covariance = whole[:count, :count]
     bound = problem.bound(at)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
@@ -80,7 +80,7 @@ def fit(
         noisy, much = deviation, [x.much for x in left]
         deviation = np.hypot(noisy, problem.disturbed(at, much))
         spread += float(np.log(deviation / noisy).mean()) if noisy.all() else 0.0
-    told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
+    told = (deviation < _TOLD * problem.sizes(at)) & ~bound[:count] & ~null.any(axis=0) & ~small
     sound = problem.sound(at, [x.wrong for x in left])
     values = problem.values(at).tolist()
     further = problem.scale * np.hypot(problem.apart(at), SURE * deviation)
@@ -96,9 +96,9 @@ def fit(
     )  # fmt: skip
     called = [*names[: count - len(free.offsets)], *(f"offset of {n}" for n in free.offsets)]
     zeros = np.where(problem.zeros, problem.scale, 0.0)
+    null = np.vstack([null, np.eye(count)[small & ~bound[:count]]])
     found = combinations(
-        called, values, problem.scale, zeros, null, partial(problem.cost, at[count:]),
-        partial(_more, asked[:count, :count], problem.before),
+        called, values, problem.scale, zeros, null, partial(problem.cost, at[count:]), more
     )  # fmt: skip
     found = tuple(
         c if c.more is not None else c._replace(still=_still(runs, model, c.parameters))
@@ -114,43 +114,55 @@ def fit(
             runs.names(runs.late), at[count:].tolist(), np.diag(whole)[count:].tolist(), strict=True
         )
     )
-    split, more = len(free.parameters), len(free.parameters) + len(runs.starts)
+    split, rest = len(free.parameters), len(free.parameters) + len(runs.starts)
     starts = tuple(
         Start(
             name, *runs.begins[piece], runs.later[piece], one.value, one.error, units.get(name, "")
         )
-        for (name, piece), one in zip(runs.starts.values(), own[split:more], strict=True)
+        for (name, piece), one in zip(runs.starts.values(), own[split:rest], strict=True)
     )
     return Fitted(
-        own[:split], starts, own[more:], suspects, found, left, delays, seen, runs.seconds,
+        own[:split], starts, own[rest:], suspects, found, left, delays, seen, runs.seconds,
         covariance / np.outer(apart, apart), problem.terms(at), engine.bandwidth,
         spread, len({name for name, _ in pieces}),
     )  # fmt: skip
 
 
 def _solved(problem: ErrorsInVariables, at: Array, progress: Callable[[float], None]) -> Array:
-    """Weights from what is left, and parameters from weights, some times."""
+    """Weights from what is left, and parameters from weights, some times.
+
+    The first rounds weigh by what is left where parameters may be far from the truth, which may
+    lead to where some are nearly nothing, and from there no round leads back. So the first one that
+    weighs by the noise begins as declared as well.
+    """
     for k in range(_ROUNDS):
         problem.weigh(at, first=k < _FIRST)
-        at = problem.solve(at, _STEPS)
+        declared = np.append(np.zeros(len(problem.names)), at[len(problem.names) :])
+        starts = [at, declared] if k == _FIRST else [at]
+        at = problem.best([problem.solve(start, _STEPS) for start in starts])
         progress((k + 1) / (_ROUNDS + 1))
     return at
 
 
-def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Array, Array]:
-    """Where what nothing tells stays as it is declared, the covariance there, what that is, and the
-    covariance by which nothing tells it.
+def _declared(
+    problem: ErrorsInVariables, at: Array
+) -> tuple[Array, Array, Array, Mask, Callable[[Sequence[int]], float | None]]:
+    """Where what nothing tells stays as it is declared, the covariance there, what that is, which
+    are too small to be told, and how much more motion would tell any of them.
 
     A fit goes anywhere along what nothing tells: there a valve may be open all the time, and one
     that the logs do tell of seems not to be told. So it is asked again where that is as declared.
     One that is told there, and only there, stays as declared: the logs tell that it is elsewhere,
-    and there they do not tell where.
+    and there they do not tell where. What is smaller than declared may be less sure than it is
+    large, but how far it is from there is told: it stays where it is.
     """
     count = len(problem.names)
     null = np.zeros((0, count))
     for _ in range(_ASKED):
-        whole = asked = problem.covariance(at)
-        own = untold(whole[:count, :count], _TOLD**2)
+        whole = problem.covariance(at)
+        asked, sizes = whole[:count, :count], problem.sizes(at)
+        large = np.maximum(sizes, 1.0)
+        own = untold(asked / np.outer(large, large), _TOLD**2) * large
         if own.shape == null.shape and ((own != 0) == (null != 0)).all():
             break
         null = own
@@ -160,7 +172,10 @@ def _declared(problem: ErrorsInVariables, at: Array) -> tuple[Array, Array, Arra
         at = problem.solve(at)
     else:
         whole = problem.covariance(at)
-    return at, whole, null, asked
+    sizes = np.where(null.any(axis=0), large, sizes)
+    small = (np.diag(asked) >= (_TOLD * sizes) ** 2) & ~null.any(axis=0)
+    more = partial(_more, asked / np.outer(sizes, sizes), problem.before / sizes)
+    return at, whole, null, small, more
 
 
 def _spread(covariance: Array) -> float:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from bondgraph.runtime.diagnosis.remembered import Memory, from_the_start, unknown_starts
-from bondgraph.runtime.diagnosis.whitening import LAGS
+from bondgraph.runtime.diagnosis.whitening import LAGS, rms
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
@@ -182,14 +182,14 @@ class ResidualRows:
     def bent(self, parameters: Mapping[str, float], delays: Array, offsets: Array) -> Array:
         """What noise moves residuals by to one side, as laws bend, (rows, residuals); 0 if unknown.
 
-        The mean of what noise of either sign adds. In the residuals there is as much of it as the
-        samples have noise once: as in SIMEX (Cook and Stefanski 1994), to first order in their
-        variance.
+        The mean of what noise of either sign adds, in units of the root mean square of what it
+        adds. In the residuals there is as much of it as the samples have noise once: as in SIMEX
+        (Cook and Stefanski 1994), to first order in their variance.
         """
         mirrored = [2.0 * p - q for p, q in zip(self.pieces, self._shaken, strict=True)]
         up, down = (self._added([parameters], delays[None], offsets[None], noisy)[1][0]
                     for noisy in (self._shaken, mirrored))  # fmt: skip
-        return np.asarray(np.nan_to_num((up + down) / 2.0))
+        return np.asarray(np.nan_to_num((up + down) / 2.0) / np.maximum(rms(up), 1e-300))
 
     def _added(
         self,

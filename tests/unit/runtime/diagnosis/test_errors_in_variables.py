@@ -80,3 +80,33 @@ def test_what_logs_tell_well_is_as_sure_beside_what_they_do_not_tell() -> None:
     found = _sandwich(1e9 * told, 1e11 * told, np.full(3, 5.0))
     assert along @ found @ along == pytest.approx(25.0, rel=0.01)
     assert np.linalg.eigvalsh(found)[:2] == pytest.approx([1e11 / 1e18] * 2, rel=0.01)
+
+
+def test_where_each_term_has_a_parameter_no_common_factor_leaves_less() -> None:
+    """m dq/dt + R q |q| = a w with all three smaller: so are the residual and all that noise makes.
+
+    What noise of q moves q |q| by to one side, taken off as a number, made nothing of them.
+    """
+    text = """bg 1
+model P { input w : rad/s; param a = 1e3; param m = 40; param R = 3
+  Se:pump = a*w; pump -> 1:s; s -> I:m; s -> R:pipe { e = R*ssq(f) }; s -> Df:q }"""
+    c = bondgraph.compile(text=text, rate=20.0)
+    time = np.arange(4000) / 20.0
+    flow = 4.0 + 2.0 * np.sin(0.5 * time) + 0.5 * np.sin(1.3 * time)
+    slope = np.cos(0.5 * time) + 0.65 * np.cos(1.3 * time)
+    draw = np.random.default_rng(1)
+    columns = {
+        "w": (40.0 * slope + 3.0 * flow**2 + 20.0 * np.sin(0.2 * time)) / 1e3,
+        "q": flow + 0.5 * draw.standard_normal(len(time)),
+    }
+    engine, model = c.engine(), c.diagnosis_model
+    pieces = stretches(engine, [("log", Log(time, columns, {}, {}))], None, None)
+    noise = [0.5 if k.path == "q" else 0.0 for k in engine.signals]
+    runs = ResidualRows(engine, pieces, noise, model.memories)
+    problem = ErrorsInVariables(runs, Wanted(("a", "m", "R")), {}, model.reads)
+    problem.weigh(np.zeros(problem.size))
+    late = np.zeros(len(runs.late))
+    one = problem.cost(late, problem.nominal.tolist())
+    for factor in (0.5, 0.1, 1e-3):
+        cost = problem.cost(late, (factor * problem.nominal).tolist())
+        assert cost == pytest.approx(one, rel=1e-6)
