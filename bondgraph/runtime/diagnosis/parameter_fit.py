@@ -13,6 +13,7 @@ from functools import partial
 
 import numpy as np
 
+from bondgraph.ir.groups import Groups
 from bondgraph.runtime.diagnosis.errors_in_variables import (
     LATEST,
     WIDE,
@@ -107,13 +108,6 @@ def fit(
     suspects = problem.suspects(at, units)
     progress(1.0)
     apart = np.where(deviation > 0, deviation, 1.0)
-    time = engine.sample_time
-    delays = tuple(
-        Delay(name, d * time, math.sqrt(max(v, 0.0)) * time, abs(d) > _AT_BOUND * LATEST)
-        for name, d, v in zip(
-            runs.names(runs.late), at[count:].tolist(), np.diag(whole)[count:].tolist(), strict=True
-        )
-    )
     split, rest = len(free.parameters), len(free.parameters) + len(runs.starts)
     starts = tuple(
         Start(
@@ -122,7 +116,8 @@ def fit(
         for (name, piece), one in zip(runs.starts.values(), own[split:rest], strict=True)
     )
     return Fitted(
-        own[:split], starts, own[rest:], suspects, found, left, delays, seen, runs.seconds,
+        own[:split], starts, own[rest:], suspects, found, left,
+        _delays(runs, model, at[count:], whole[count:, count:]), seen, runs.seconds,
         covariance / np.outer(apart, apart), problem.terms(at), engine.bandwidth,
         spread, len({name for name, _ in pieces}),
     )  # fmt: skip
@@ -176,6 +171,54 @@ def _declared(
     small = (np.diag(asked) >= (_TOLD * sizes) ** 2) & ~null.any(axis=0)
     more = partial(_more, asked / np.outer(sizes, sizes), problem.before / sizes)
     return at, whole, null, small, more
+
+
+def _delays(
+    runs: ResidualRows, model: DiagnosisModel, late: Array, covariance: Array
+) -> tuple[Delay, ...]:
+    """The delays that were fitted, in s, of signals that were `late` by so many samples (n,).
+
+    Where all that moves in some residuals is late, only differences are known: with all signals
+    later by the same the residuals are the same later.
+    """
+    names, still = runs.names(runs.late), runs.still()
+    moving = [k.path for k in runs.engine.signals if k.path not in still]
+    joined = Groups[str]()
+    for residual in runs.engine.residuals:
+        read = {*model.sees.get(residual, moving), *model.natures[residual].modes}
+        own = [name for name in moving if name in read]
+        for name in own[1:]:
+            joined.join(own[0], name)
+    groups = [
+        [names.index(n) for n in group]
+        for group in joined.among(moving) if len(group) > 1 and set(group) <= set(names)
+    ]  # fmt: skip
+    value, error = _apart(late, covariance, groups)
+    bound, time = np.abs(late) > _AT_BOUND * LATEST, runs.engine.sample_time
+    return tuple(
+        Delay(name, float(value[k]) * time, float(error[k]) * time, bool(bound[k] and error[k] > 0))
+        for k, name in enumerate(names)
+    )
+
+
+def _apart(late: Array, covariance: Array, groups: Sequence[Sequence[int]]) -> tuple[Array, Array]:
+    """Delays (n,) and their deviations, in each of some `groups` beside one of its signals.
+
+    Beside that by which they are least in all: signals that need none. Of two such, beside the one
+    that the fit moved less.
+
+    >>> value, error = _apart(np.array([1.3, 0.3, 0.35, 0.5]), np.eye(4) / 100, [[0, 1, 2]])
+    >>> value.round(2).tolist(), error.round(2).tolist()
+    ([0.95, -0.05, 0.0, 0.5], [0.14, 0.14, 0.0, 0.1])
+    """
+    beside = np.eye(len(late))
+    for group in groups:
+        own = late[group]
+        total = np.abs(own[:, None] - own).sum(axis=0).round(6)
+        best = group[int(np.lexsort((np.abs(own), total))[0])]
+        beside[group, best] -= 1.0
+    variance = np.diag(beside @ covariance @ beside.T)
+    return beside @ late, np.sqrt(np.maximum(variance, 0.0))
 
 
 def _spread(covariance: Array) -> float:

@@ -160,6 +160,30 @@ def test_what_is_outside_of_its_tolerance_is_told(
     assert (loose in done.out) == bool(squared)
 
 
+def test_what_is_fitted_as_next_to_nothing_is_not_said_to_be_known_better(
+    bondgraph: Command, folder: Path
+) -> None:
+    """Of a frictionless bearing b is 0.01 +- 0.09 N.s/m, declared as 0.5: zero is in the interval.
+
+    Such ones were named among those that should be fitted, and others left out.
+    """
+    text = """bg 1
+model M { param m = 2 kg +- 5%; param b = 0.5 N.s/m +- 10%
+  Se:F -> 1:v; v -> I:m; v -> R:b; v -> Df:y }"""
+    (folder / "m.bg").write_text(text)
+    t = np.arange(8000) / 1000.0
+    force = 5.0 * np.cos(7.0 * t) + 3.0 * np.cos(23.0 * t)
+    speed = 5.0 / 14.0 * np.sin(7.0 * t) + 3.0 / 46.0 * np.sin(23.0 * t)
+    noise = 0.05 * np.random.default_rng(1).standard_normal(len(t))
+    write_log(Log(t, {"F": force, "y": speed + noise}, {}, {}), "log.csv")
+    done = bondgraph("fit", "m.bg", "log.csv", "-o", "p.toml")
+    assert done.status == 0, done.err
+    (advice,) = (line for line in done.out.splitlines() if " only makes the residuals" in line)
+    assert advice.startswith("  b only") and advice.endswith(" (--free m)")
+    assert "\n  b is not told\n" in done.out
+    assert (folder / "p.toml").read_text().count("not told by the logs") == 1
+
+
 def test_a_signal_that_is_in_the_log_too_soon_comes_early(
     bondgraph: Command, folder: Path
 ) -> None:
@@ -174,9 +198,9 @@ def test_a_signal_that_is_in_the_log_too_soon_comes_early(
     done = bondgraph("fit", "r.bg", "log.csv", "-o", "p.toml")
     assert done.status == 0, done.err
     told = re.findall(r"^  (\S) comes (\S+) ms early in the log$", done.out, re.MULTILINE)
-    # straight lines make both half a sample early
-    assert [name for name, _ in told] == ["U", "y"]
-    assert [float(time) for _, time in told] == pytest.approx([1.0, 0.5], abs=0.02)
+    # straight lines make both half a sample early, which is nothing: all there is is that early
+    assert [name for name, _ in told] == ["U"]
+    assert float(told[0][1]) == pytest.approx(0.5, abs=0.02)
 
 
 def test_times_of_a_slow_log_are_told_in_units_that_people_count_in(
@@ -193,7 +217,7 @@ def test_times_of_a_slow_log_are_told_in_units_that_people_count_in(
     write_log(Log(t, {"U": soon, "y": drive / 3.0 + noise}, {}, {}), "log.csv")
     done = bondgraph("fit", "r.bg", "log.csv", "-o", "p.toml")
     assert done.status == 0, done.err
-    assert re.search(r"^  U comes (29|30)[.0-9]* s early in the log$", done.out, re.MULTILINE)
+    assert re.search(r"^  U comes 1[45][.0-9]* s early in the log$", done.out, re.MULTILINE)
     assert re.search(r" told by 2\.0[0-9] days of healthy operation\n", done.out)
     tuned = bondgraph("tune", "r.bg", "log.csv", "-o", "t.json")
     assert re.search(r" tuned on 2\.0[0-9] days for ", tuned.out), tuned.out
@@ -214,9 +238,10 @@ def test_a_delay_that_may_be_more_than_is_fitted_is_told_so(
     (folder / "rl.bg").write_text(text)
     write_log(Log(t, {"U": drive, "y": y}, {}, {}), "log.csv")
     done = bondgraph("fit", "rl.bg", "log.csv", "-o", "p.toml")
-    assert "  y comes 15 ms late in the log or more: no more is fitted" in done.out
+    # of both 15 ms are fitted, and only how far they are apart is known
+    assert "  U comes 30 ms early in the log or more: no more is fitted" in done.out
     record = json.loads(bondgraph("fit", "rl.bg", "log.csv", "-o", "p.toml", "--json").out)
-    assert record["delays"][1]["signal"] == "y" and record["delays"][1]["bound"] is True
+    assert [(d["signal"], d["bound"]) for d in record["delays"]] == [("U", True), ("y", False)]
 
 
 def test_what_is_not_told_has_no_interval(bondgraph: Command, folder: Path) -> None:
