@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from fractions import Fraction
 from operator import mul
 from typing import Any, TypeAlias, cast
@@ -96,18 +96,27 @@ def nominal(graph: BondGraph) -> dict[str, Fraction | float]:
     return found
 
 
-class Valued(Evaluated[Number]):
-    """Constant expressions where symbols have numbers, by name; what was found once is kept."""
+def declared_zero(graph: BondGraph, numbers: Mapping[str, Number | None]) -> tuple[str, ...]:
+    """The faults that are declared to be zero, whatever number stands in their place."""
+    return tuple(v.name for v in graph.values if v.fault and (v.zero or numbers.get(v.name) == 0))
 
-    def __init__(self, values: Mapping[str, Number]) -> None:
+
+class Valued(Evaluated[Number]):
+    """Constant expressions where symbols have numbers, by name; what was found once is kept.
+
+    `zeros` are declared to be zero, whatever their numbers are.
+    """
+
+    def __init__(self, values: Mapping[str, Number], zeros: Collection[str] = ()) -> None:
         super().__init__(EXACT, lambda node: values.get(node.symbol.name))
+        self._zeros = frozenset(zeros)
 
     def sensitivities(self, weights: Mapping[Expr, float]) -> dict[str, float] | None:
         """theta * d sum / d theta of a weighted sum of expressions, by parameter.
 
-        At the nominal values; d sum / d theta where theta is 0. One pass back over all expressions,
-        as there may be hundreds of parameters (Linnainmaa, 1970). Not a number where a slope is not
-        defined, None where the expressions have no value.
+        At the nominal values; d sum / d theta where theta is declared 0. One pass back over all
+        expressions, as there may be hundreds of parameters (Linnainmaa, 1970). Not a number where a
+        slope is not defined, None where the expressions have no value.
         """
         if any(self.value(root) is None for root in weights):
             return None
@@ -119,7 +128,8 @@ class Valued(Evaluated[Number]):
                 continue
             value = float(cast(Number, self.known[node]))
             if node.op is Op.SYM:
-                slopes[node.symbol.name] = above * (value or 1.0)
+                name = node.symbol.name
+                slopes[name] = above * (1.0 if name in self._zeros else value or 1.0)
                 continue
             own = [cast(Number, self.known[a]) for a in node.args]
             plain = node.op is Op.MUL and value and math.isfinite(value)

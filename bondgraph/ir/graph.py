@@ -109,7 +109,7 @@ class Value(NamedTuple):
 
     `fault` says that it is an unbound param that a law uses, and so a fault candidate.
     `tolerance` is relative (1/20 for 5%). `delivery` marks what a controller gives beyond its
-    command.
+    command, `zero` what is declared to be zero where another number stands in its place.
     """
 
     name: str
@@ -122,6 +122,7 @@ class Value(NamedTuple):
     doc: str
     origin: Span
     delivery: bool = False
+    zero: bool = False
 
 
 class Input(NamedTuple):
@@ -273,13 +274,18 @@ class BondGraph(NamedTuple):
     def with_values(self, numbers: Mapping[str, float]) -> BondGraph:
         """The same model with other numbers of values, in SI; raises KeyError for another name.
 
-        As if they were written in the file: the shortest decimal of each, exactly.
+        As if they were written in the file: the shortest decimal of each, exactly. But what is
+        declared to be zero, as a leak that is not there yet, stays one that is.
         """
         for name in numbers:
             if all(v.name != name for v in self.values):
                 raise KeyError(name)
         written = {n: self.pool.num(Fraction(repr(float(x)))) for n, x in numbers.items()}
-        values = tuple(v._replace(value=written.get(v.name, v.value)) for v in self.values)
+        values = tuple(
+            v._replace(value=written[v.name], zero=v.zero or v.value is self.pool.zero)
+            if v.name in written else v
+            for v in self.values
+        )  # fmt: skip
         return self._replace(values=values)
 
     def with_tolerances(self, tolerances: Mapping[str, float]) -> BondGraph:

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Literal
 
 from bondgraph.algebra.derivative import Jets
-from bondgraph.algebra.numeric import Valued, nominal
+from bondgraph.algebra.numeric import Valued, declared_zero, nominal
 from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Input, Sensor, Value
 from bondgraph.ir.nodes import constant
@@ -57,7 +57,9 @@ class Builder:
         self.jets = Jets(graph.pool)
         self.values: dict[str, Fraction | float] = nominal(graph)
         self.floats = {name: float(value) for name, value in self.values.items()}
-        self.nominal = Valued(self.floats)
+        #: The faults that are declared to be zero.
+        self.absent = declared_zero(graph, self.values)
+        self.nominal = Valued(self.floats, self.absent)
         self.fields: list[Field] = []
         self.names = Names()
         self.extent: dict[str, list[int]] = {}  # lowest and highest order that exact needs
@@ -101,12 +103,6 @@ class Builder:
         self.names.new(name)
         self.prelude.append(Assign(Ref("local", name), value, comment, None))
         return self.pool.symbol(f"{OPTION}{name}@", Kind.CONST)
-
-    @cached_property
-    def absent(self) -> tuple[str, ...]:
-        """The faults that are nominally zero."""
-        values = self.graph.values
-        return tuple(v.name for v in values if v.fault and self.floats.get(v.name) == 0.0)
 
     @cached_property
     def fault_symbols(self) -> dict[str, set[Expr]]:

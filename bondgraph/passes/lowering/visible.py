@@ -3,7 +3,7 @@
 A term c p**k y is seen if at some frequency up to w = pi rate / 5 (a tenth of the rate in Hz) its
 size |c| w**k reaches a given part of the largest term of the same signal there (METHOD 4.5). To
 look at the highest frequency alone would be wrong: there a small friction hides behind a large
-inertia, but at constant speed it is all there is. A parameter that is nominally zero, a leak say,
+inertia, but at constant speed it is all there is. A parameter that is declared zero, a leak say,
 counts with the size one: the fault is that it does not stay zero.
 """
 

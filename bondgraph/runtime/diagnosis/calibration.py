@@ -156,7 +156,7 @@ class _Work:
         sizes = Sizes(engine)
         for log in logs:
             sizes.add(log)
-        found = hypotheses(engine, model.faults, model.units, sizes.found())
+        found = hypotheses(engine, model.faults, model.units, sizes.found(), zeros=model.signs)
         longest = max(logs, key=len, default=np.empty((0, len(engine.signals))))[:_CHUNK]
         self.all = sized(engine, found, self.model.nominal, longest)
         self.tolerated, self.spread = tolerated(self.all, model)

@@ -74,7 +74,7 @@ class Diagnosis:
         self._model = model
         self._engine = engine
         self._every = rows_apart(engine)
-        known = hypotheses(engine, model.faults, model.units, {})
+        known = hypotheses(engine, model.faults, model.units, {}, zeros=model.signs)
         own, spread = tolerated(known, model)
         offsets = sensor_offsets(known, model)
         self._tolerated = (*own, *offsets)

@@ -1,4 +1,4 @@
-"""Parameters that are nominally zero and have one sign: with the other an R would deliver power."""
+"""Parameters that are declared to be zero, and the sign of those with which an R dissipates."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from fractions import Fraction
 
-from bondgraph.algebra.numeric import Number, evaluate, nominal
+from bondgraph.algebra.numeric import Number, declared_zero, evaluate, nominal
 from bondgraph.ir.expr import Expr, symbols
 from bondgraph.ir.graph import BondGraph, Port
 
@@ -21,7 +21,8 @@ def dissipating_signs(graph: BondGraph) -> dict[str, int]:
     signals tells nothing, nor does one that gives neither effort nor flow by the other.
     """
     numbers = nominal(graph)
-    zero = {v.symbol: v.name for v in graph.values if v.fault and numbers.get(v.name) == 0}
+    declared = declared_zero(graph, numbers)
+    zero = {v.symbol: v.name for v in graph.values if v.name in declared}
     found: dict[str, set[int]] = {}
     for node in graph.nodes:
         if node.kind == "R" and len(node.ports) == len(node.laws) == 1:

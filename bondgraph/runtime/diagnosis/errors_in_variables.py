@@ -12,7 +12,7 @@ runs over the log and over the log with as much noise once more.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -114,7 +114,8 @@ class _Slopes(NamedTuple):
 class ErrorsInVariables:
     """Normalised residuals as a function of what is fitted, and of delays in samples.
 
-    Parameters are relative to their nominal values, offsets to how far their signals move.
+    Parameters are relative to their nominal values, but for `zeros`, which are declared to be zero;
+    offsets are relative to how far their signals move.
     """
 
     def __init__(
@@ -123,6 +124,7 @@ class ErrorsInVariables:
         free: Wanted,
         tolerances: Mapping[str, float],
         reads: Mapping[str, frozenset[str]],
+        zeros: Collection[str] = (),
     ) -> None:
         self._runs, self._free = runs, (*free.parameters, *runs.starts)
         self._shared = len(free.parameters)  # those of all logs stand first
@@ -134,9 +136,10 @@ class ErrorsInVariables:
         declared = [runs.declared(n) for n in self._free]
         known = [runs.engine.signals[runs.biased[k]].offset for k in self._offset_at]
         self.nominal = np.array(declared + known)
-        self.zeros = self.nominal == 0
-        self.zeros[len(declared) :] = True
-        self.scale = np.append(np.abs(declared), self._sizes[self._offset_at])
+        nought = [v == 0 or n in zeros for n, v in zip(self._free, declared, strict=True)]
+        self.zeros = np.array(nought + [True] * len(known), dtype=np.bool_)
+        size = np.where(nought, 0.0, np.abs(declared))
+        self.scale = np.append(size, self._sizes[self._offset_at])
         self.size = len(self.names) + len(runs.late)
         self._moves = np.array([
             [n not in free.parameters or n in reads.get(r, (n,)) for r in runs.engine.residuals]
@@ -146,8 +149,8 @@ class ErrorsInVariables:
         self._low = np.full(self.size, -np.inf)
         self._high = np.full(self.size, np.inf)
         for k, value in enumerate(self.nominal):
-            if self.names[k] in runs.starts:
-                continue  # on whichever side it begins
+            if self.zeros[k] or self.names[k] in runs.starts:
+                continue  # on whichever side it is
             if value > 0:
                 self._low[k] = _SMALLEST - 1.0
             elif value < 0:
@@ -175,7 +178,7 @@ class ErrorsInVariables:
         zeros = np.flatnonzero(self.scale == 0)
         self.scale[zeros] = 1.0
         nothing = np.zeros(self.size)
-        values = [self._numbers(nothing), *[{self._free[k]: 1.0} for k in zeros]]
+        values = [self._numbers(nothing), *[{self._free[k]: self.nominal[k] + 1.0} for k in zeros]]
         small = {n: _STEP * values[0][n] for n in self._free[: self._shared]}
         still = np.zeros((len(values) + 1, len(self._runs.moved)))
         clean, added = self._runs.rows([*values, small], still, still)

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from bondgraph.algebra.numeric import declared_zero
 from bondgraph.ir.expr import Expr, Op, below, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
@@ -50,7 +51,8 @@ class DiagnosisModel(NamedTuple):
     machine is known to have, with the kind of their hypothesis and the deviation of what is known:
     what is nominal is so with them. `dynamic` are the parameters that are multiplied with what
     changes, as those of storages are: `SinceOnset` tries these in two ways. `signs` are those that
-    parameters may have which are nominally zero, where an R would deliver power with the other.
+    parameters may have which are declared to be zero, whatever they are now: 1 or -1 where an R
+    would deliver power with the other, else 0 for either.
     `reads` are by residual the parameters that may move it; any may move one that is not there.
     `doubles` tells which two faults at once could look like a third one, when it is asked.
     """
@@ -107,7 +109,7 @@ def diagnosis_model(
         known,
         doubles,
         dynamic=dynamic(graph, residuals),
-        signs=dissipating_signs(graph),
+        signs=dict.fromkeys(declared_zero(graph, numbers), 0) | dissipating_signs(graph),
         reads=parameters_read(graph, residuals, program),
     )
 
@@ -258,11 +260,11 @@ def directions(
 ) -> tuple[tuple[Hypothesis, ...], Array]:
     """The faults that move residuals with the machine, and the whole of what each changes.
 
-    Parameters that are not nominally zero, and gains of signals that are not counted.
+    Parameters that are not declared to be zero, and gains of signals that are not counted.
     """
     whole = {h: model.faults[h.fault] if h.kind == "value" else 1.0 for h in known
              if h.kind == "value" or (h.kind == "gain" and h.level > 0.0)}  # fmt: skip
-    found = {h: size for h, size in whole.items() if size}
+    found = {h: size for h, size in whole.items() if size and not h.zero}
     return tuple(found), np.array(list(found.values()))
 
 

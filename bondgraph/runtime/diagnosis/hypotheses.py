@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 from types import MappingProxyType
 from typing import Literal
@@ -86,7 +86,8 @@ class Hypothesis(NamedTuple):
     program is told: so it is with parameters and commands, not with readings.
     A gain is told in percent, that of a temperature in its `unit` at its usual `level`: a share of
     what is counted from absolute zero says nothing to anybody. Where encoders stand says nothing
-    of how far a share takes them: they have no level.
+    of how far a share takes them: they have no level. A parameter that is declared to be `zero` has
+    no size of its own, and either sign, whatever it is now.
     """
 
     fault: str
@@ -96,6 +97,7 @@ class Hypothesis(NamedTuple):
     turned: bool
     held: Stuck | None = None
     level: float = 0.0
+    zero: bool = False
 
     def told(self, size: float) -> tuple[float, str]:
         """A size as people are told it, and its unit.
@@ -207,7 +209,7 @@ class Bank:
 
     def _step(self, hypothesis: Hypothesis) -> float:
         if hypothesis.kind == "value":
-            return _STEP * (abs(self._nominal[hypothesis.fault]) or hypothesis.usual)
+            return _STEP * max(abs(self._nominal[hypothesis.fault]), hypothesis.usual)
         counts = self._counts(hypothesis)
         if hypothesis.kind == "start":
             return max(1.0, round(hypothesis.usual)) if counts else hypothesis.usual
@@ -479,15 +481,17 @@ def hypotheses(
     sizes: Mapping[str, float],
     switches: Mapping[str, Stuck] = MappingProxyType({}),
     in_time: bool = False,
+    zeros: Collection[str] = (),
 ) -> tuple[Hypothesis, ...]:
     """All that may be wrong: a value for each parameter, offset and gain for each signal.
 
     `faults` are the paths that some residual sees, with the nominal value of a parameter and None
-    for a signal; `sizes` is the usual size of a signal, of an encoder its speed in rad/s. Modes are
-    wrong as `switches`, by the name of the fault. Where there are any, commands may be lost: that
-    is as certain in what it does, and would have to lose against them otherwise. With `in_time`
-    a sensor whose reading is differentiated may go away steadily: its rate is in the relation as
-    well, which no offset has. And an actuator may stay where it was, whatever it is told.
+    for a signal, `zeros` those that are declared to be zero; `sizes` is the usual size of a signal,
+    of an encoder its speed in rad/s. Modes are wrong as `switches`, by the name of the fault. Where
+    there are any, commands may be lost: that is as certain in what it does, and would have to lose
+    against them otherwise. With `in_time` a sensor whose reading is differentiated may go away
+    steadily: its rate is in the relation as well, which no offset has. And an actuator may stay
+    where it was, whatever it is told.
     """
     signals = {k.path: k for k in engine.signals}
     found = []
@@ -497,7 +501,7 @@ def hypotheses(
         if nominal is not None:
             if path in engine.parameters:
                 usual = _USUAL * (abs(nominal) or 1.0)
-                found.append(Hypothesis(path, "value", unit, usual, True))
+                found.append(Hypothesis(path, "value", unit, usual, True, zero=path in zeros))
         elif path in signals and signals[path].kind != "mode":
             counts = signals[path].counts
             size = sizes.get(path, 1.0)
@@ -528,7 +532,7 @@ def sized(
     nominal: Mapping[str, float],
     samples: Array,
 ) -> tuple[Hypothesis, ...]:
-    """The same with usual sizes of parameters that are nominally nothing.
+    """The same with usual sizes of parameters that are declared to be nothing.
 
     These are a leak that is not there yet, and what a controller delivers wrongly. By how much no
     number tells: in SI units a hole may be 1e-9. But some signal of the same balance is as large:
@@ -536,7 +540,7 @@ def sized(
     samples from where the engine is. A law may be bent, so that a step of the unit it is in is too
     large for a slope: it is taken once more at what is usual then.
     """
-    own = [k for k, h in enumerate(known) if h.kind == "value" and not nominal[h.fault]]
+    own = [k for k, h in enumerate(known) if h.kind == "value" and (h.zero or not nominal[h.fault])]
     gains = [k for k, h in enumerate(known) if h.kind == "gain"]
     if not own or not gains or not len(samples):
         return known

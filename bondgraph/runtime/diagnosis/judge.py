@@ -150,7 +150,7 @@ class Judge:
         self._best, self._two = None, OneOrTwo()
         sizes = self._sizes.found()
         found = hypotheses(
-            self._engine, model.faults, model.units, sizes, model.switches, in_time=True
+            self._engine, model.faults, model.units, sizes, model.switches, True, model.signs
         )
         samples = np.concatenate([began.healthy, *[row.samples for row in began.rows]])
         found = sized(began.engine, found, model.nominal, samples)

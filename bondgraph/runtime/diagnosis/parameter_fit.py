@@ -60,13 +60,13 @@ def fit(
     switches = {m for own in natures for m in own.modes if m not in own.anew}
     deviations = [seen[k.path] for k in engine.signals]
     runs = ResidualRows(engine, pieces, deviations, model.memories, switches)
-    problem = ErrorsInVariables(runs, free, tolerances, model.reads)
+    problem = ErrorsInVariables(runs, free, tolerances, model.reads, model.signs)
     at = _solved(problem, np.zeros(problem.size), progress)
     if delayed := problem.delayed(at):
         fitted = len(problem.names)
         late = dict(zip(runs.late, at[fitted:].tolist(), strict=True))
         runs.late = sorted({*runs.late, *delayed})
-        problem = ErrorsInVariables(runs, free, tolerances, model.reads)
+        problem = ErrorsInVariables(runs, free, tolerances, model.reads, model.signs)
         at = np.append(at[:fitted], [late.get(k, 0.0) for k in runs.late])
         at = _solved(problem, at, lambda _: None)  # what is told goes on, not back
     names = problem.names

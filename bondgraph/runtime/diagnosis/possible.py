@@ -24,11 +24,12 @@ _FAR = 1e3  # deviations: farther out a normal distribution is an exponential on
 def possible(explained: Explained, nominal: float | None, sign: int | None = None) -> Explained:
     """No fault turns a parameter into its opposite: what would need that is no explanation.
 
-    Nor does one that is zero take the sign with which an R would deliver power, where only one
-    `sign` dissipates. `change` is how much less than now the parameter was. Where that is on the
-    wrong side by no more than three deviations, beyond a tenth of the value, by which laws may be
-    wrong, the change is the mean of what can be (a normal distribution, truncated), and the
-    evidence is less by how improbable that is.
+    One that is declared to be zero may take either sign, but for the one with which an R would
+    deliver power, where only the other dissipates: it has a `sign`, 0 for either. `change` is how
+    much less than now the parameter was. Where that is on the wrong side by no more than three
+    deviations, beyond a tenth of the value, by which laws may be wrong, the change is the mean of
+    what can be (a normal distribution, truncated), and the evidence is less by how improbable that
+    is.
 
     >>> from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
     >>> area = Hypothesis("A", "value", "m^2", 0.02, turned=True)
@@ -38,7 +39,7 @@ def possible(explained: Explained, nominal: float | None, sign: int | None = Non
     [(9.0, 0.1), (9.0, 0.171), (-inf, 0.4)]
     """
     change, deviation = explained.change, explained.deviation
-    side = math.copysign(1.0, nominal) if nominal else float(sign or 0)
+    side = float(sign) if sign is not None else math.copysign(1.0, nominal) if nominal else 0.0
     value = side * ((nominal or 0.0) - change)  # as the machine has it now
     if nominal is None or value >= 0.0:
         return explained
@@ -103,7 +104,7 @@ def candidates(
     leave such a residual unexplained. Of a fault that fits only what is loud has to be seen, as in
     `suspects`, and of any where no fault is seen by all that have fired. Where none is seen by what
     is loud, none is ruled out by that. `faults` are nominal values, `sees` the faults of each
-    residual, `signs` those of what is nominally zero.
+    residual, `signs` those of what is declared to be zero.
     """
     left = [possible(e, faults.get(e.fault), signs.get(e.fault)) for e in found]
     most = loud(fired)

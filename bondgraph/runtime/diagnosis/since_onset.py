@@ -524,10 +524,10 @@ class SinceOnset:
         }
 
     def _within(self, k: int, change: float) -> float:
-        """The change, of a parameter only as far as it keeps its sign and size."""
+        """The change, of a parameter that is not declared zero as far as it keeps sign and size."""
         hypothesis = self._all[k]
         nominal = self._nominal[hypothesis.fault] if hypothesis.kind == "value" else 0.0
-        if not nominal:
+        if not nominal or hypothesis.zero:
             return change
         return float((1.0 - np.clip(1.0 - change / nominal, _LEFT, _LARGEST)) * nominal)
 

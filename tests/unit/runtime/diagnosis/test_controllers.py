@@ -13,9 +13,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import bondgraph
 from bondgraph.cli.main import main
 from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.calibration import tune
+from bondgraph.runtime.diagnosis.healthy import directions
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, sized
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
@@ -137,6 +139,23 @@ def test_a_usual_leak_is_a_share_of_the_largest_flow() -> None:
     assert _usual(c, {"Q": k * math.sqrt(p), "p": p})["leak"] == pytest.approx(0.3 * k, rel=1e-3)
 
 
+def test_a_leak_that_was_fitted_is_still_one_that_is_declared_zero() -> None:
+    """With 1e-4 k of it in healthy logs, as `--parameters` has it, 1.3e-4 k was usual of it."""
+    k, p = 2e-6, 4e4
+    text = (
+        f"bg 1\nmodel M {{ param C = 1e-5; param k = {k}; param leak = 0; Sf:Q -> 0:t; t -> C:C"
+        "; t -> De:p; t -> R:out { f = k*ssqrt(e) }; t -> R:hole { f = leak*ssqrt(e) } }"
+    )
+    c = bondgraph.compile(text=text, parameters={"leak": 1e-4 * k})
+    model = c.diagnosis_model
+    assert model.faults["leak"] == 1e-4 * k and model.signs == {"leak": 1}
+    known = hypotheses(c.engine(), model.faults, model.units, {}, zeros=model.signs)
+    assert [h.fault for h in known if h.zero] == ["leak"]
+    along, _ = directions(known, model)
+    assert "leak" not in [h.fault for h in along] and "k" in [h.fault for h in along]
+    assert _usual(c, {"Q": k * math.sqrt(p), "p": p})["leak"] == pytest.approx(0.3 * k, rel=1e-3)
+
+
 def test_what_is_usual_of_a_bent_law_is_of_its_slope_at_nothing() -> None:
     # r = i - U/(R + more): a step of 1e-5 Ohm is ten times R, and the slope at 0 is U/R^2
     c = compiled(
@@ -149,8 +168,8 @@ def test_what_is_usual_of_a_bent_law_is_of_its_slope_at_nothing() -> None:
 
 def _usual(c: Compilation, at: Mapping[str, float]) -> dict[str, float]:
     """Usual sizes of the parameters of a machine at rest."""
-    engine, nominal = c.engine(), c.diagnosis_model.nominal
-    known = hypotheses(engine, c.diagnosis_model.faults, c.diagnosis_model.units, {})
+    engine, nominal, model = c.engine(), c.diagnosis_model.nominal, c.diagnosis_model
+    known = hypotheses(engine, model.faults, model.units, {}, zeros=model.signs)
     rows = np.tile([[at[k.path] for k in engine.signals]], (3000, 1))
     found = sized(engine.configured(), known, nominal, rows)
     return {h.fault: h.usual for h in found if h.kind == "value"}

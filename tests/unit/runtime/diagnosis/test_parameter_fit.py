@@ -285,6 +285,21 @@ def test_what_is_declared_zero_may_have_either_sign_and_others_keep_theirs() -> 
     assert turned.value > 0
 
 
+@pytest.mark.parametrize("given", [-1.0, -1e-6])
+def test_what_is_declared_zero_may_have_either_sign_whatever_was_fitted_before(
+    given: float,
+) -> None:
+    """U = 3 i + 0.5: of logs before, or of another machine, the second was below zero."""
+    text = """bg 1
+model M { param R = 2 Ohm; param more = 0 V
+  Se:U -> 1:i; i -> R:R { e = R*f + more }; i -> Df:y }"""
+    current = np.sin(7.0 * TIME) + 0.5 * np.sin(23.0 * TIME)
+    c = bondgraph.compile(text=text, rate=RATE, parameters={"more": given})
+    columns = {"U": 3.0 * current + 0.5, "y": current + noise(0.01)}
+    resistance, more = c.fit({"run": Log(TIME, columns, {}, {})}).parameters
+    assert holds(resistance, 3.0) and holds(more, 0.5) and not more.bound
+
+
 def test_logs_without_any_noise_give_the_truth() -> None:
     assert math.isclose(only(fitted(ONE, U=DRIVE, y=DRIVE / 3.0)).value, 3.0, rel_tol=1e-9)
 

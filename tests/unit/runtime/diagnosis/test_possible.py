@@ -69,3 +69,16 @@ def test_what_is_left_over_has_to_be_noise() -> None:
     one = explained("R", 9.0)
     assert fits(one._replace(left=0.99 * most)) and not fits(one._replace(left=1.01 * most))
     assert not fits(one._replace(evidence=1.0)), "a healthy machine is about as probable"
+
+
+def test_what_is_declared_zero_may_turn_round_whatever_it_is_now() -> None:
+    """A load of -1.85 N in healthy logs becomes one of 38 N: no number that turned round, but a
+    leak of 0.1 becomes none of -5, with which its R would deliver power."""
+    load = explained("R", 90.0)._replace(change=-40.0, deviation=1.0)
+    known, seen = {"R": -1.85}, {"r1": 2.0}
+    (sided,) = candidates([load], known, SEES, seen)
+    (either,) = candidates([load], known, SEES, seen, {"R": 0})
+    assert sided.evidence == -math.inf and either == load
+    leak = load._replace(change=5.1)
+    (delivers,) = candidates([leak], {"R": 0.1}, SEES, seen, {"R": 1})
+    assert delivers.evidence == -math.inf
