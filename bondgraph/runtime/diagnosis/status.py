@@ -153,19 +153,20 @@ class WatchStatus:
     def relearning(self, time: float, fresh: Mask, out: list[Verdict]) -> None:
         """Driven or switched as never before: the noise of `fresh` residuals is not known."""
         if fresh.any():
-            message = f"driven as never before: {self._learning(time, fresh)}"
+            message = f"driven as never before: {self._learning(time, fresh, anew=True)}"
             out.append(Verdict("warm-up", time, message=message))
 
     def _watched(self, of: Mask) -> str:
         return f"{self.names(of)} {'is' if of.sum() == 1 else 'are'} watched from now on"
 
-    def _learning(self, at: float, of: Mask) -> str:
-        """When enough rows will have been seen, if the machine moves."""
+    def _learning(self, at: float, of: Mask, anew: bool = False) -> str:
+        """When enough rows will have been seen, if the machine moves and all is not as before."""
         every = rows_apart(self._engine)
         rows = math.ceil((round(at / self._engine.sample_time) + 1) / every) + FIRST - 1
         until = (rows * every - 1) * self._engine.sample_time
         noise = f"the noise of {self.names(of)} is learned until {moment(until)} at least"
-        return f"{noise}, and no alarm given before"
+        unless = ", unless it is seen to be as it was" if anew else ""
+        return f"{noise}{unless}, and no alarm given before"
 
     def _waiting(self, of: Mask, origins: Origins) -> str:
         verb = "waits" if of.sum() == 1 else "wait"

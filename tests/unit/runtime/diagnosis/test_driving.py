@@ -66,6 +66,7 @@ def test_a_machine_that_idled_is_learned_anew_when_it_works(seed: int) -> None:
     said = _watched(_machine(), _samples(seed))
     (anew,) = [v for v in said if "driven as never before" in v.message]
     assert 585.0 <= anew.time <= 630.0
+    assert "at least, unless it is seen to be as it was, and no alarm" in anew.message
 
 
 @pytest.mark.parametrize("seed", range(3))
