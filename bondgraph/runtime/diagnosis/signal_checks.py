@@ -468,8 +468,8 @@ class SignalChecks:
         larger = answers(rare & (sizes(steered) > self._stepped))[own]
         known = beside & ~larger & (self._answer[1] >= _ENOUGH)
         usual = known & (single <= _OUT * self._answer[0])
-        usual |= beside & ~known & (~larger | (single <= self._at_most(steered, rare)[own]))
-        spike = np.where(usual, 0.0, single)
+        unknown = beside & ~known & (~larger | (single <= self._at_most(steered, rare)[own]))
+        spike = np.where(usual | unknown, 0.0, single)
         answer = np.where(beside, single, 0.0).max(axis=0)
         explained = self._explained(spike)
         spike = np.where(explained, 0.0, spike)
