@@ -58,4 +58,4 @@ def answers(rare: Mask) -> Mask:
     >>> answers(np.arange(9)[:, None] == 4)[:, 0].nonzero()[0].tolist()
     [4, 5, 6]
     """
-    return answered(1.0 * rare.any(axis=1))[:, None] > 0.0
+    return answered(np.where(rare.any(axis=1), 1.0, 0.0))[:, None] > 0.0
