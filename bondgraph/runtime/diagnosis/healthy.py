@@ -30,13 +30,15 @@ class Nature(NamedTuple):
 
     `modes` are the switches that it reads, `anew` those with which it starts anew. `approximate`
     says that it puts filtered derivatives into a nonlinear law, `stages` and `laws` how long its
-    filters are. `drifts` if it adds up readings, and their noise, for ever.
+    filters are, `order` the highest derivative in it. `drifts` if it adds up readings, and their
+    noise, for ever.
     """
 
     modes: tuple[str, ...]
     approximate: bool
     stages: int
     laws: int
+    order: int
     drifts: bool
     anew: tuple[str, ...] = ()
 
@@ -210,6 +212,7 @@ def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict
             bool(info.approximate),
             info.stages,
             info.laws,
+            info.order,
             any(n.op is Op.INT for n in nodes),
             anew.get(info.name, ()),
         )

@@ -56,10 +56,8 @@ def fit(
     """
     tolerances, units = model.tolerances, model.units
     seen = {**estimated_noise(engine, [p.samples for _, p in pieces]), **noise}
-    natures = [model.natures[name] for name in engine.residuals]
-    switches = {m for own in natures for m in own.modes if m not in own.anew}
     deviations = [seen[k.path] for k in engine.signals]
-    runs = ResidualRows(engine, pieces, deviations, model.memories, switches)
+    runs = ResidualRows(engine, pieces, deviations, model.natures, model.memories)
     problem = ErrorsInVariables(runs, free, tolerances, model.reads, model.signs)
     at = _solved(problem, np.zeros(problem.size), progress)
     if delayed := problem.delayed(at):

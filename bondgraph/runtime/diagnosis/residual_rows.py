@@ -14,7 +14,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
 
+from bondgraph.runtime.diagnosis.healthy import Nature
 from bondgraph.runtime.diagnosis.remembered import Memory, from_the_start, unknown_starts
 from bondgraph.runtime.diagnosis.whitening import LAGS, rms
 from bondgraph.runtime.log import Array, Mask
@@ -26,6 +28,7 @@ _APART = 0.5  # time constants of the filter between two rows
 _JUMP = 10.0  # deviations of its steps that a signal changes by where it jumps
 _SIDE = 5  # samples before a jump, and behind it, that are another level
 _CHUNK = 5000  # samples at a time
+_HOLDS = 2  # orders up to which nothing is missed of what is held between samples
 _STILL = 1e-9  # of what it is: a signal that moves less stands still
 _LEAST = 50  # rows below which nothing is told
 
@@ -35,8 +38,8 @@ class ResidualRows:
 
     Beside them, what as much noise as the sensors have adds to them: always the same noise. What
     residuals have `memories` of is known from the start of a log to its first gap; `lost` are the
-    seconds by residual in which it is not. The `switches` are modes that some residual reads and
-    does not start anew with.
+    seconds by residual in which it is not. By their `natures` residuals read switches, and start
+    anew with some of these.
     """
 
     def __init__(
@@ -44,10 +47,13 @@ class ResidualRows:
         engine: Engine,
         pieces: Sequence[tuple[str, Piece]],
         noise: Sequence[float],
+        natures: Mapping[str, Nature],
         memories: Sequence[Memory] = (),
-        switches: Collection[str] = (),
     ) -> None:
         self.engine = engine
+        own = [natures[name] for name in engine.residuals]
+        switches = {mode for one in own for mode in one.modes if mode not in one.anew}
+        self._orders = np.array([one.order for one in own])
         time = engine.sample_time
         self.every = max(1, round(_APART / engine.bandwidth / time))
         self.skip = math.ceil(engine.warm_up / time / self.every) + 1
@@ -93,14 +99,15 @@ class ResidualRows:
             and any(np.diff(p[self.skip * self.every :, at]).any() for p in self.pieces)
         ]  # fmt: skip
         #: The signals whose delay is fitted: others may be added.
-        self.late = self.turned + [
+        self._jumping = self.turned + [
             at for at, known in enumerate(engine.signals)
-            if known.kind in ("input", "sensor") and known.counts is None
-            and any(
-                _jumps(p[self.skip * self.every :, at], known.kind == "sensor")
-                or (at in self.commands and _held(p[self.skip * self.every :, at]))
-                for p in self.pieces
+            if known.kind in ("input", "sensor") and known.counts is None and any(
+                _jumps(p[self.skip * self.every :, at], known.kind == "sensor") for p in self.pieces
             )
+        ]  # fmt: skip
+        self.late = self._jumping + [
+            at for at in self.commands if at not in self._jumping
+            and any(_held(p[self.skip * self.every :, at]) for p in self.pieces)
         ]  # fmt: skip
         self.biased = [
             at for at, known in enumerate(engine.signals)
@@ -123,6 +130,11 @@ class ResidualRows:
                 up, down = draw.poisson(sigma**2 / 2, (2, len(samples)))
                 shaken[:, at] += up - down
         return shaken
+
+    @property
+    def held(self) -> list[int]:
+        """The inputs and switches of which the delay is fitted that hold what they are given."""
+        return [at for at in self.late if at in self.commands or at in self.turned]
 
     def names(self, columns: Sequence[int]) -> list[str]:
         """The paths of signals, by their columns."""
@@ -226,11 +238,14 @@ class ResidualRows:
 
         def through(number: int, samples: Array) -> Array:
             lasts, received = self._lasts[number], self.pieces[number]
-            lines = {at: by for at, by in late.items() if at not in self.turned}
-            steps = {at: by for at, by in late.items() if at in self.turned}
+            held = {at: late[at] for at in self.held}
+            smooth = [at for at in held if at not in self._jumping]
+            lines = {at: by for at, by in late.items() if at not in held}
             parts = [
-                share * self._through(few[number], _moved(own, lines, off), received, lasts)
-                for share, own in _turned(samples, steps)
+                self._through(
+                    few[number], _moved(_later(samples, own), lines, off), received, lasts, shares
+                )
+                for own, shares in _around_samples(held, smooth, self.turned, self._orders)
             ]
             return np.asarray(np.sum(parts, axis=0))
 
@@ -263,18 +278,25 @@ class ResidualRows:
         samples: Array,
         received: Array,
         lasts: Array,
+        shares: Array,
     ) -> Array:
+        """The rows of one piece: sums of residuals by their `shares`, (samples ago, residuals)."""
         engines = [self.engine.configured(p, bounds=False) for p in parameters]
         readings = list(self.engine.readings)
         parts = []
         step = self.every * max(1, _CHUNK // self.every)
+        ago = len(shares) - 1
+        past = np.full((len(engines), ago, len(lasts)), np.nan)
         for k in range(0, len(samples), step):
             part = samples[k : k + step]
             # laws acted on what they received, noise and all
             got = received[k : k + step, readings] if readings else None
             value, valid, _ = engines[0].run_with(engines[1:], part, got)
             value = np.where(valid, value, np.nan)
-            parts.append(value[:, self.every - 1 :: self.every])
+            value = np.concatenate([past, value], axis=1)
+            past = value[:, len(value[0]) - ago :]
+            rows = np.arange(ago + self.every - 1, len(value[0]), self.every)
+            parts.append(np.sum([s * value[:, rows - k] for k, s in enumerate(shares)], axis=0))
         found = np.concatenate([*parts, np.full_like(parts[0][:, :1], np.nan)], axis=1)
         found[:, : self.skip] = np.nan
         for k, until in enumerate((lasts // self.every).tolist()):
@@ -338,32 +360,91 @@ def _held(values: Array) -> bool:
     return bool(np.nansum(np.diff(steps) ** 2) > np.nansum(steps**2))
 
 
-def _turned(samples: Array, late: Mapping[int, float]) -> list[tuple[float, Array]]:
-    """Samples with modes a whole number of samples late, and how much the residuals of each count.
+def _around_samples(
+    late: Mapping[int, float],
+    smooth: Collection[int],
+    turned: Collection[int],
+    orders: NDArray[np.int_],
+) -> list[tuple[dict[int, float], Array]]:
+    """By how many samples held signals, `late` by so many, are later in runs, and their shares.
 
-    A mode is never half on. What it does while it is on adds up: between two whole numbers of
-    samples residuals are a straight line in the delay, as they are in a held number.
+    A share is that of what each residual was so many samples ago, (samples ago, residuals). The
+    code takes the mean of two samples for what is between them. What is held there is the same at
+    both: there are a run with what it is behind each sample and one with what it was before it,
+    and of each two samples the residual is the mean of the first as of behind it and the second as
+    of before it. What moves smoothly gets there what the trapezoid rule misses, (D T)**2/12 for
+    each order; of what is held it misses nothing up to the second order. So that all of it, three
+    samples long, is in one more filter, these shares are no halves
+    (docs/decisions/errors-in-variables.md). A signal with no delay is a
+    straight line between two samples, but one of `smooth` is what it is at both; with half a sample
+    it is held, and beyond that held and late. A residual of order 0 has nothing between samples.
 
-    >>> turns = np.array([[0.0], [1.0], [1.0], [0.0]])
-    >>> [(share, own[:, 0].tolist()) for share, own in _turned(turns, {0: 0.75})]
-    [(0.25, [0.0, 1.0, 1.0, 0.0]), (0.75, [0.0, 0.0, 1.0, 1.0])]
-    >>> [(share, own[:, 0].tolist()) for share, own in _turned(turns, {0: -1.0})]
-    [(1.0, [1.0, 1.0, 0.0, 0.0])]
+    A mode that is `turned` is never half on. What it does while it is on adds up: between two whole
+    numbers of samples residuals are a straight line in the delay, as they are in a held number.
+
+    >>> _around_samples({}, [], [], np.array([1]))[0][1].tolist()
+    [[1.0]]
+    >>> for late, shares in _around_samples({0: 0.5}, [], [], np.array([1])):
+    ...     print(late, (24 * shares[:, 0]).round(9).tolist())
+    {0: 0.0} [0.0, 4.0, 6.0, 2.0]
+    {0: 1.0} [2.0, 6.0, 4.0, 0.0]
+    >>> for late, shares in _around_samples({0: 0.0}, [0], [], np.array([1])):
+    ...     print(late, (24 * shares[:, 0]).round(9).tolist())
+    {0: 0.0} [2.0, 10.0, 10.0, 2.0]
+    >>> for late, shares in _around_samples({0: 0.75}, [], [0], np.array([1])):
+    ...     print(late, (24 * shares[:, 0]).round(9).tolist())
+    {0: 0} [0.0, 3.0, 4.5, 1.5]
+    {0: 1} [1.5, 5.5, 4.5, 0.5]
+    {0: 2} [0.5, 1.5, 1.0, 0.0]
+    """
+    if not late:
+        return [({}, np.ones((1, len(orders))))]
+    more = np.minimum(orders, _HOLDS)
+    shares = np.array([3 - more, 6 + 0 * more, 3 + more, 0 * more]) / 24.0 * (orders > 0)
+    runs = [(dict(late), np.array([orders == 0, *np.zeros((3, len(orders)))], dtype=float))]
+    part_held = {at: min(max(by, -0.5), 0.5) for at, by in late.items()}
+    for side, of, own in ((-0.5, min, shares[::-1]), (0.5, max, shares)):
+        moved = {
+            at: by - part_held[at] + of(0.0, 2.0 * part_held[at]) if at in smooth else by + side
+            for at, by in late.items()
+        }
+        runs.append((moved, own))
+    found: dict[tuple[tuple[int, float], ...], Array] = {}
+    for moved, own in runs:
+        steps = {at: by for at, by in moved.items() if at in turned}
+        lines = {at: by for at, by in moved.items() if at not in turned}
+        for part, whole in _whole(steps) if own.any() else ():
+            key = (*lines.items(), *whole.items())
+            found[key] = found.get(key, 0.0) + part * own
+    return [(dict(key), own) for key, own in found.items()]
+
+
+def _whole(late: Mapping[int, float]) -> list[tuple[float, dict[int, int]]]:
+    """Whole numbers of samples in place of others, and how much the residuals of each count.
+
+    >>> _whole({0: 0.75}), _whole({0: -1.0}), _whole({})
+    ([(0.25, {0: 0}), (0.75, {0: 1})], [(1.0, {0: -1})], [(1.0, {})])
     """
     whole = {at: math.floor(by) for at, by in late.items()}
     parts = {at: by - whole[at] for at, by in late.items() if by > whole[at]}
     found = [(1.0 - sum(parts.values()), whole)]
-    found += [(part, {**whole, at: whole[at] + 1}) for at, part in parts.items()]
-    return [(share, _stepped(samples, by)) for share, by in found]
+    return found + [(part, {**whole, at: whole[at] + 1}) for at, part in parts.items()]
 
 
-def _stepped(samples: Array, late: Mapping[int, int]) -> Array:
-    """The samples with some columns so many samples late; what was before or is behind is held."""
+def _later(samples: Array, late: Mapping[int, float]) -> Array:
+    """The samples with some columns so many samples late; what was before or is behind is held.
+
+    >>> ramp = np.array([[0.0], [1.0], [2.0]])
+    >>> [_later(ramp, {0: by})[:, 0].tolist() for by in (1, -1, 0.25)]
+    [[0.0, 0.0, 1.0], [1.0, 2.0, 2.0], [0.0, 0.75, 1.75]]
+    """
     if not any(late.values()):
         return samples
-    found, when = samples.copy(), np.arange(len(samples))
+    found, when, last = samples.copy(), np.arange(len(samples)), len(samples) - 1
     for at, by in late.items():
-        found[:, at] = samples[np.clip(when - by, 0, len(samples) - 1), at]
+        whole = math.floor(by)
+        one, before = (samples[np.clip(when - k, 0, last), at] for k in (whole, whole + 1))
+        found[:, at] = one + (by - whole) * (before - one) if by > whole else one
     return found
 
 

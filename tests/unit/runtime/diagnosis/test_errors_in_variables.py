@@ -53,7 +53,7 @@ def _tanks(reads: bool) -> tuple[ErrorsInVariables, Sequence[str]]:
     pieces = stretches(engine, [("log", log)], None, None)
     noise = [0.01 * float(np.std(log.columns[k.path])) for k in engine.signals]
     names = tuple(n for n, v in model.faults.items() if v is not None and n in engine.parameters)
-    runs = ResidualRows(engine, pieces, noise, model.memories)
+    runs = ResidualRows(engine, pieces, noise, model.natures, model.memories)
     free = Wanted(names, ("Q",))
     return ErrorsInVariables(runs, free, {}, model.reads if reads else {}), (*names, "Q")
 
@@ -102,7 +102,7 @@ model P { input w : rad/s; param a = 1e3; param m = 40; param R = 3
     engine, model = c.engine(), c.diagnosis_model
     pieces = stretches(engine, [("log", Log(time, columns, {}, {}))], None, None)
     noise = [0.5 if k.path == "q" else 0.0 for k in engine.signals]
-    runs = ResidualRows(engine, pieces, noise, model.memories)
+    runs = ResidualRows(engine, pieces, noise, model.natures, model.memories)
     problem = ErrorsInVariables(runs, Wanted(("a", "m", "R")), {}, model.reads)
     problem.weigh(np.zeros(problem.size))
     late = np.zeros(len(runs.late))
