@@ -442,7 +442,7 @@ def _higher(
         for number, one in enumerate(log.every):
             row = _where_it_stands(one, number, mean, levels.unsure)
             most = np.maximum(most, levels.deviations(log.peaks[number] - [mean, -mean], own))
-            new = history.innovation(row, sure, levels.unsure)
+            new = history.innovation(row, sure)
             levels.ahead(alarmed=False)
             cusum.add(new, own)
             scores.add(new, own, history)

@@ -313,8 +313,8 @@ class Diagnosis:
                 self._learning = None
             row = row._replace(valid=row.valid & ~settling)
         unsure = False if self._learning is None else self._learning.unsure
-        own = self._innovation(row, unsure)
         self._levels.ahead(self._detection.alarmed)
+        own = self._innovation(row, unsure)
         fresh = self._detection.row(own, self._limits, self._history)
         if fresh.any():
             self._fire(row.time, fresh, [], out)
@@ -334,7 +334,7 @@ class Diagnosis:
     def _innovation(self, row: Row, unsure: Mask | bool) -> Row:
         """A row less what is expected, with room for what offsets of sensors may drift by."""
         steep = self._offsets.steep(row, self._history)
-        own = self._history.innovation(row, ~(steep | unsure), self._levels.unsure)
+        own = self._history.innovation(row, ~(steep | unsure))
         share = np.where(steep, 1.0, COVERED)
         return own._replace(bound=own.bound + share * self._offsets.most(row, self._history))
 

@@ -124,23 +124,21 @@ class History:
         moved = np.linalg.solve(known[:, :-1].T, slopes * self.prior[:, None])
         return moved.T @ known[:, -1], np.square(moved).sum(axis=0)
 
-    def innovation(self, row: Row, sure: Mask, unsure: Array | float = 0.0) -> Row:
+    def innovation(self, row: Row, sure: Mask) -> Row:
         """A row less what is expected; its bound is how far off a healthy machine may be from that.
 
         That is what is not known of its parameters yet, what they may drift by, and what no
-        parameter does. Of that, `unsure` is what is not known of where residuals stand: it is as
-        much as for parameters, and variances add. A residual that is not `sure` may be anywhere
-        within its tolerances.
+        parameter does. A residual that is not `sure` may be anywhere within its tolerances.
         """
         own, count = row.average, len(row.value)
         slopes = row.slopes if own is None else np.concatenate([row.slopes, own.slopes], axis=1)
         expected, variance = self.expected(slopes)
         sure = sure & np.isfinite(expected[:count]) & np.isfinite(variance[:count])
         unknown = UNKNOWN * np.sqrt(np.where(np.isfinite(variance), variance, 0.0))
-        bound = left_for_drift(row.bound, row.doubt) + np.hypot(unknown[:count], unsure) - unsure
+        bound = left_for_drift(row.bound, row.doubt) + unknown[:count]
         if own is not None:
             less = np.where(sure & own.valid, expected[count:], 0.0)
-            most = left_for_drift(own.bound, own.doubt) + np.hypot(unknown[count:], unsure) - unsure
+            most = left_for_drift(own.bound, own.doubt) + unknown[count:]
             own = own._replace(value=own.value - less, bound=np.where(sure, most, own.bound))
         return row._replace(
             value=np.where(sure, row.value - expected[:count], row.value),

@@ -63,12 +63,10 @@ class _Seen(NamedTuple):
 
 
 class _Known(NamedTuple):
-    """Of rows of a window, (rows, ...): what a watch leaves room for that knows the machine, and
-    for what is not known of it, slopes by tolerated parameters, what no parameter explains, and
-    what it knows."""
+    """Of rows of a window, (rows, ...): what a watch leaves room for that knows the machine, slopes
+    by tolerated parameters, what no parameter explains; and what it knows."""
 
     room: Array
-    unknown: Array
     slopes: Array
     doubt: Array
     history: History
@@ -149,7 +147,7 @@ class ShownSizes:
         variance = np.zeros_like(rows)
         for k, own in enumerate(slopes):
             variance[k] = history.expected(own)[1]
-        return _Known(rows, UNKNOWN * np.sqrt(variance), slopes, self._rows(doubt), history)
+        return _Known(rows + UNKNOWN * np.sqrt(variance), slopes, self._rows(doubt), history)
 
     def _rows(self, samples: Array) -> Array:
         """The means of whole rows."""
@@ -195,8 +193,7 @@ class ShownSizes:
         course = _size(room + beyond, np.abs(moved * share), np.isfinite(beyond)).min(axis=2)
         ends = slice(self._every - 1, count * self._every, self._every)
         rows, unsure = self._rows(moved * share), UNKNOWN * level[0][:count]
-        whole = known.room + np.hypot(known.unknown, unsure)
-        for found in (self._by_sums(rows, whole), self._by_scores(rows, known)):
+        for found in (self._by_sums(rows, known.room + unsure), self._by_scores(rows, known)):
             course[ends] = np.minimum(course[ends], found.min(axis=2, initial=math.inf))
         times = np.ceil(np.arange(1, _TIMES + 1) * len(course) / _TIMES).astype(int) - 1
         return np.asarray(np.minimum.accumulate(course, axis=0)[times])
@@ -219,10 +216,9 @@ class ShownSizes:
         if not len(rows):
             return np.empty(rows.shape)
         moved, slopes = self._white(rows), self._white(known.slopes)
-        room = self._white(known.room + known.unknown)
         count = np.arange(1.0, len(rows) + 1.0)[:, None, None]
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            variance = own[:, 6] ** 2 + model_error(0.0 * room, room)
+            variance = own[:, 6] ** 2 + model_error(0.0 * known.room, self._white(known.room))
             weight = moved / np.where(own[:, 6] > 0.0, variance, math.nan)[:, None]
             tells = np.cumsum(weight * moved, axis=0)
             step = np.sqrt(tells[-1] / np.sum((weight * moved) ** 2, axis=0))

@@ -167,21 +167,6 @@ def test_what_is_expected_of_this_machine_is_the_mean_of_what_its_parameters_may
     assert found.bound == pytest.approx([*wide[:2], 6.0], rel=1e-9)
 
 
-def test_what_is_not_known_of_a_level_and_of_parameters_adds_as_variances_do() -> None:
-    draw = np.random.default_rng(6)
-    spread, level = np.array([0.5, 2.0]), np.array([0.7, 3.0, 0.0])
-    history, matrix, _ = _equations(draw, spread, 7, 3)
-    now, none = draw.normal(size=(2, 3)), np.zeros(3)
-    room = 0.1 + 2.0 * level  # for no parameter, and two deviations of where residuals stand
-    row = Row(0.0, none, None, none, np.ones(3, dtype=bool), room + 0.4, room, now)
-    bound = history.innovation(row, np.ones(3, dtype=bool), 2.0 * level).bound
-    # machines as rows have left them possible, that stand somewhere
-    known = np.linalg.inv(matrix + np.diag(spread**-2.0))
-    machines = draw.multivariate_normal(np.zeros(2), known, 200_000) @ now
-    off = (machines + level * draw.standard_normal((200_000, 3))).std(axis=0)
-    assert bound == pytest.approx(0.1 + 0.1 * 0.4 + 2.0 * off, rel=0.01)
-
-
 def test_what_was_known_of_a_parameter_is_known_less_well_once_it_may_have_drifted() -> None:
     spread = np.array([0.5, 2.0, 1.5])
     history, matrix, right = _equations(np.random.default_rng(8), spread, 9, 2)
