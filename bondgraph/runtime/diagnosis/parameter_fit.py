@@ -191,7 +191,7 @@ def _delays(
         [names.index(n) for n in group]
         for group in joined.among(moving) if len(group) > 1 and set(group) <= set(names)
     ]  # fmt: skip
-    value, error = _apart(late, covariance, groups)
+    value, error = _beside(late, covariance, groups)
     bound, time = np.abs(late) > _AT_BOUND * LATEST, runs.engine.sample_time
     return tuple(
         Delay(name, float(value[k]) * time, float(error[k]) * time, bool(bound[k] and error[k] > 0))
@@ -199,13 +199,13 @@ def _delays(
     )
 
 
-def _apart(late: Array, covariance: Array, groups: Sequence[Sequence[int]]) -> tuple[Array, Array]:
+def _beside(late: Array, covariance: Array, groups: Sequence[Sequence[int]]) -> tuple[Array, Array]:
     """Delays (n,) and their deviations, in each of some `groups` beside one of its signals.
 
     Beside that by which they are least in all: signals that need none. Of two such, beside the one
     that the fit moved less.
 
-    >>> value, error = _apart(np.array([1.3, 0.3, 0.35, 0.5]), np.eye(4) / 100, [[0, 1, 2]])
+    >>> value, error = _beside(np.array([1.3, 0.3, 0.35, 0.5]), np.eye(4) / 100, [[0, 1, 2]])
     >>> value.round(2).tolist(), error.round(2).tolist()
     ([0.95, -0.05, 0.0, 0.5], [0.14, 0.14, 0.0, 0.1])
     """
