@@ -56,8 +56,9 @@ class Driving:
 
     A lag that the model leaves out shows in how fast inputs are, not in how far they go: in how far
     each goes within a time constant. Behind a step that is faster than ever residuals are
-    `settling`, for two rows. Where they come back, they have shown what the machine does behind
-    steps, and have `room` for it from then on, in proportion.
+    `settling`, for two rows, unless they are further away than such a step can bring them. Where
+    they come back, they have shown what the machine does behind steps, and have `room` for it from
+    then on, in proportion.
 
     An input that is measured may be read wrongly. Then the residual stays away by all that this
     adds to it, and nothing has moved but a reading.
@@ -86,6 +87,7 @@ class Driving:
         self._fast = np.zeros(self._lags.shape, dtype=bool)  # what they settle behind
         self._shown = np.zeros(self._lags.shape)  # how far they were for a unit of that
         self._most = np.zeros(len(self._settles))  # how far at all
+        self._reach = np.zeros(len(self._settles))  # how far these inputs can have brought them
         self._begin()
 
     @property
@@ -151,9 +153,21 @@ class Driving:
         return np.asarray(further.any(axis=0))
 
     def show(self, part: Part, limit: Array) -> None:
-        """How residuals that settle show a step, where that is above the `limit` of their noise."""
+        """How residuals that settle show a step, where that is above the `limit` of their noise.
+
+        A lag takes from a residual what its inputs step by, and no more: what is further away does
+        not settle. Where a controller makes the input of a reading, a wrong reading is answered
+        with a step.
+        """
         if not self.settling.any():
             return
+        with np.errstate(invalid="ignore"):
+            steps = self._effect[len(self._at) :] * self._steps.max(axis=0)[:, None]
+        reach = (1.0 + _PART) * np.where(self._fast, steps, 0.0).sum(axis=0)
+        self._reach = np.maximum(self._reach, reach)
+        away = part.valid & (np.abs(part.value) > self._reach + limit + part.bound)
+        self._settles[away.any(axis=0)] = 0
+        self._fast &= self.settling
         size = np.where(part.valid & self.settling, np.abs(part.value), 0.0)
         size *= size > limit
         self._most = np.maximum(self._most, size.max(axis=0))
@@ -175,6 +189,7 @@ class Driving:
         self._fast &= self.settling
         self._shown = np.where(self.settling, self._shown, 0.0)
         self._most = np.where(self.settling, self._most, 0.0)
+        self._reach = np.where(self.settling, self._reach, 0.0)
         return np.asarray(over & away)
 
     def misread(self, k: int, stood: float) -> Misread:

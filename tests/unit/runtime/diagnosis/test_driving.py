@@ -50,14 +50,14 @@ def _samples(seed: int, weak: float = 1.0, idle: int = 600, fault: int = 10**6) 
     return told + draw.normal(size=told.shape) * [0.001, 0.002]
 
 
-def _watched(machine: Compilation, samples: Array) -> list[Verdict]:
+def _watched(machine: Compilation, samples: Array, step: float = 1.0) -> list[Verdict]:
     engine = machine.engine()
-    assert [k.path for k in engine.signals] == ["q", "p"]
+    assert [k.path for k in engine.signals] in (["q", "p"], ["i", "q"])
     watch = machine.diagnosis(engine)
     base, said = engine.configured(), []
     for k in range(0, len(samples), 15):
         part = samples[k : k + 15]
-        said += watch.update(np.arange(k, k + len(part)) * 1.0, base.run(part), part)
+        said += watch.update(np.arange(k, k + len(part)) * step, base.run(part), part)
     return said
 
 
@@ -212,6 +212,51 @@ def test_the_zero_of_an_input_that_jumps_is_seen_two_rows_later(added: float) ->
     assert told and all("q" in own for own in told)
 
 
+_AXIS = """bg 1
+model Axis {
+    input i : A
+    param g = 35 N/A
+    param M = 95 kg +- 5%
+    param Fv = 200 N.s/m +- 10%
+    Se:drive = g*i -> 1:car
+    car { -> I:M; -> R:Fv }
+    sensor q : m = int(car.f)
+}
+"""
+
+
+def _followed(drift: float) -> Array:
+    """Of (i, q) at 1 kHz: a controller of q makes i of the very reading, which creeps from 2 s.
+
+    It wants slow motions, so that no step of its command is as large as that of its answer.
+    """
+    draw, dt, count = np.random.default_rng(21), 1e-3, 3000
+    noise = 2e-6 * draw.normal(size=count)
+    reads, at, speed, rows = 0.0, 0.0, 0.0, []
+    slope = 0.0  # of the reading, which the controller smooths over ten samples
+    for k in range(count):
+        wanted, wanted_speed = 0.05 * math.sin(4.0 * k * dt), 0.2 * math.cos(4.0 * k * dt)
+        last, reads = reads, at + noise[k] + drift * max(0.0, k * dt - 2.0)
+        slope += 0.1 * ((reads - last) / dt - slope) if k else wanted_speed
+        current = (4e4 * (wanted - reads) + 3e3 * (wanted_speed - slope)) / 35.0
+        rows.append((current, reads))
+        for _ in range(10):
+            speed += dt / 10 * (35.0 * current - 200.0 * speed) / 95.0
+            at += dt / 10 * speed
+    return np.array(rows)
+
+
+def test_a_controller_that_answers_a_wrong_reading_drives_nothing() -> None:
+    """Its step is faster than ever, but what the reading does is far more than that."""
+    axis = Compilation(Source("axis.bg", _AXIS)).with_options(rate=1000.0, bandwidth=300.0)
+    assert not [v for v in _watched(axis, _followed(0.0), 1e-3) if v.event == "fault"]
+    said = _watched(axis, _followed(0.1), 1e-3)
+    (fault,) = [v for v in said if v.event == "fault"]
+    assert 2.0 <= fault.time < 2.01, "two rows of 10 ms later as a lag"
+    told = [v for v in said if v.candidates]
+    assert told and max(told[-1].candidates, key=lambda c: c.probability).fault == "q"
+
+
 def _driving(reads: bool = True) -> Driving:
     """Of one input and one residual, whose filter has a time constant of ten samples."""
     return Driving([0], np.full((1, 1), reads), 10.0, 30)
@@ -320,6 +365,20 @@ def test_a_residual_that_comes_back_has_room_behind_further_steps(stays: float, 
         assert (room >= 0.5 * shown).all()
         assert room[0] <= 0.5 * 1.5 * 0.2
         assert other.room(further)[0, 0] == pytest.approx(room[0], rel=0.1)
+
+
+@pytest.mark.parametrize(("value", "settles"), [(4.0, True), (-4.0, True), (5.0, False)])
+def test_what_is_further_away_than_a_step_can_do_does_not_settle(
+    value: float, settles: bool
+) -> None:
+    """The input steps by one, and adds three times that: half of it more is an overshoot."""
+    _, driving = _waved()
+    stepped, limit = np.full((30, 1), 7.0), np.array([0.01])
+    driving.room(stepped)
+    driving.anew(limit, _SURE)
+    assert driving.settling.all()
+    driving.show(_part(stepped, np.full(30, value)), limit)
+    assert driving.settling.all() == settles
 
 
 def test_what_a_residual_does_not_read_does_not_matter() -> None:
