@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from bondgraph.runtime.diagnosis.history import History
@@ -33,7 +33,7 @@ class Comparison:
         nominal: Mapping[str, float],
         tolerated: Sequence[Hypothesis] = (),
         machine: Mapping[str, float] = MappingProxyType({}),
-        dynamic: Container[str] = (),
+        dynamic: Mapping[str, Sequence[float]] = MappingProxyType({}),
         before: Sequence[Row] = (),
     ) -> None:
         self._before = tuple(before)

@@ -16,7 +16,7 @@ from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signature_matrix import DoubleFaults, ModeSignatures, SignatureMatrix, stuck
 from bondgraph.runtime.diagnosis.dissipation import dissipating_signs
 from bondgraph.runtime.diagnosis.history import History
-from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis, Stuck
+from bondgraph.runtime.diagnosis.hypotheses import ALL, COUNT, Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.remembered import Memory, behind, memories
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.parameters import Values, units
@@ -52,9 +52,10 @@ class DiagnosisModel(NamedTuple):
     residual; `switches` that may be stuck, by the name of the fault. `accepted` are faults that the
     machine is known to have, with the kind of their hypothesis and the deviation of what is known:
     what is nominal is so with them. `dynamic` are the parameters that are multiplied with what
-    changes, as those of storages are: `SinceOnset` tries these in two ways. `signs` are those that
-    parameters may have which are declared to be zero, whatever they are now: 1 or -1 where an R
-    would deliver power with the other, else 0 for either.
+    changes, as those of storages are, and how many derivatives may stand in front of each:
+    `SinceOnset` tries these. `signs` are those that parameters may have which are declared to be
+    zero, whatever they are now: 1 or -1 where an R would deliver power with the other, else 0 for
+    either.
     `reads` are by residual the parameters that may move it; any may move one that is not there.
     `doubles` tells which two faults at once could look like a third one, when it is asked.
     """
@@ -69,7 +70,7 @@ class DiagnosisModel(NamedTuple):
     switches: Mapping[str, Stuck]
     doubles: Callable[[], DoubleFaults]
     accepted: Mapping[tuple[str, str], float] = MappingProxyType({})
-    dynamic: frozenset[str] = frozenset()
+    dynamic: Mapping[str, Sequence[float]] = MappingProxyType({})
     signs: Mapping[str, int] = MappingProxyType({})
     reads: Mapping[str, frozenset[str]] = MappingProxyType({})
 
@@ -163,23 +164,53 @@ def grouped(
     return groups
 
 
-def dynamic(graph: BondGraph, residuals: ResidualSet) -> frozenset[str]:
+def dynamic(graph: BondGraph, residuals: ResidualSet) -> dict[str, tuple[float, ...]]:
     """The parameters that relations multiply with a derivative or differentiate.
 
-    How these become others makes a difference: what is measured jumps, or it does not.
+    And with how many derivatives in front each may become another: with none, what is measured goes
+    on; with one, it jumps as where a storage keeps its charge, or what resists stands behind one;
+    with all that the code has where relations have no more than one, or two in front of it.
     """
     names = {v.symbol: v.name for v in graph.values if not v.delivery}
-    holds: dict[Expr, frozenset[str]] = {}
-    moves: set[Expr] = set()
-    found: set[str] = set()
+    degrees: dict[Expr, int] = {}
+    holds: dict[Expr, dict[str, _Derivatives]] = {}
     for node in topological([r.expr for r in residuals.residuals]):
-        own = frozenset[str]().union(*[holds[a] for a in node.args])
-        holds[node] = own | ({names[node]} if node in names else frozenset())
-        if node.op is Op.DER or any(a in moves for a in node.args):
-            moves.add(node)
-            if node.op is not Op.ADD:  # the terms of a sum do not touch each other
-                found |= own
-    return frozenset(found)
+        found: dict[str, _Derivatives] = {names[node]: _Derivatives()} if node in names else {}
+        for one in node.args:
+            # the terms of a sum do not touch each other
+            others = [a for a in node.args if a is not one and node.op is not Op.ADD]
+            for name, own in holds[one].items():
+                own = own.under(node.op is Op.DER, max((degrees[a] for a in others), default=0))
+                found[name] = own.most(found.get(name, own))
+        holds[node] = found
+        degrees[node] = max((degrees[a] for a in node.args), default=0) + (node.op is Op.DER)
+    every: dict[str, _Derivatives] = {}
+    for r in residuals.residuals:
+        for name, own in holds[r.expr].items():
+            every[name] = own.most(every.get(name, own))
+    return {name: own.ways for name, own in every.items() if own.front or own.behind}
+
+
+class _Derivatives(NamedTuple):
+    """How many there are in front of a parameter at most, and of what it is multiplied with."""
+
+    front: int = 0
+    behind: int = 0
+
+    def under(self, derivative: bool, others: int) -> _Derivatives:
+        """The same with one in front of that, or what it is multiplied with."""
+        return _Derivatives(self.front + derivative, max(self.behind, others))
+
+    def most(self, other: _Derivatives) -> _Derivatives:
+        """Of two places."""
+        return _Derivatives(*map(max, self, other))
+
+    @property
+    def ways(self) -> tuple[float, ...]:
+        """See `dynamic`."""
+        if self.front + self.behind <= 1:
+            return (0, ALL) if self.front else (0,)
+        return (0, 1, ALL)[: min(self.front, 2) + 1]
 
 
 def parameters_read(

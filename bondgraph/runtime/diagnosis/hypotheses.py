@@ -21,6 +21,8 @@ _USUAL = 0.3  # share of what a fault usually changes: of a value, of the size o
 _COUNTS = 0.02  # share of an encoder's counts: smaller ones would drown in rounding
 _SLOWLY = 40.0  # time constants of the filter in which a sensor drifts as far as it is usually off
 _SLIP = 1 / 8  # of a turn, by which an encoder usually slips
+ALL = math.inf  #: of the derivatives in front of a parameter
+_GONE = 12.0  # time constants, beside one a stage, after which a filter has forgotten all
 _AT_ONCE = 2**18  # numbers that the engines of a bank take and give in one call
 
 COUNT = "count"  # the unit of an encoder's offset
@@ -124,6 +126,7 @@ class _Lane:
         self.begin: Array | None = None  # the sample before the first: where encoders count from
         self.age = 0  # samples so far
         self.left: Array | None = None  # what stays in the filter of the time before the onset
+        self.impulse = np.zeros(0)  # what comes into it with the onset, beside that
 
 
 class _Plan(NamedTuple):
@@ -236,6 +239,16 @@ class Bank:
             self._lanes[k] = lane
         self._plan = _plan(self._lanes)
 
+    def copied(self) -> Bank:
+        """Another one that stands where this one does."""
+        other = Bank(copied(self.engine), self.hypotheses, self._nominal)
+        for own, lane in zip(other._lanes, self._lanes, strict=True):
+            own.ends, own.begin, own.age = lane.ends, lane.begin, lane.age
+            own.left, own.impulse = lane.left, lane.impulse
+            own.engines = [None if e is None else copied(e) for e in lane.engines]
+        other._plan = _plan(other._lanes)
+        return other
+
     def part(self, numbers: Sequence[int]) -> Bank:
         """Only the hypotheses of these numbers, at the same sample; the others are given up."""
         other = Bank(self.engine, (), self._nominal)
@@ -244,13 +257,23 @@ class Bank:
         other._plan = _plan(other._lanes)
         return other
 
-    def onset(self, slopes: Array) -> None:
+    def onset(self, slopes: Array, jumps: Bank | None = None) -> None:
         """What has held so far begins now; `slopes` are those of the last sample.
 
-        A filter shows for a while what came before. Of that nothing is to be seen.
+        A filter shows for a while what came before. Of that nothing is to be seen. With `jumps`, a
+        bank of the same that begins now, one of the derivatives in it stands in front of what
+        becomes another one, and makes an impulse of how far that jumps. Both are beside each other
+        until they have forgotten the time before, with signals that stay: what is between them has
+        the area of that impulse, as what more derivatives make of a jump has none. These go on.
         """
         for lane, left in zip(self._lanes, slopes, strict=True):
-            lane.left, lane.age = left.copy(), 0
+            lane.left, lane.impulse, lane.age = left.copy(), np.zeros_like(left), 0
+        begin = jumps._lanes[0].begin if jumps and jumps._lanes else None
+        if jumps is not None and begin is not None:
+            stays = np.repeat(begin[None], _rest(self.engine), axis=0)
+            beyond = jumps.run(stays) - self.copied().run(stays)
+            for lane, area in zip(self._lanes, beyond.sum(axis=0), strict=True):
+                lane.impulse = area
 
     def run(self, samples: Array, at: Sequence[int] | None = None) -> Array:
         """The slopes after further (n, signals) samples; shape (n, hypotheses, residuals).
@@ -290,9 +313,9 @@ class Bank:
             before = self._before(own.stop - own.start)
             slopes[first:last] = self._slopes(every, before, partial(np.take, indices=at, axis=1))
             if whole:
-                summed = self._slopes(every, before, partial(_summed, ends=at))
-                some = sums[first : first + len(summed)]
-                some += summed[: len(some)]
+                adds = self._slopes(every, before, partial(summed, ends=at))
+                some = sums[first : first + len(adds)]
+                some += adds[: len(some)]
         return slopes, sums
 
     def _outputs(self, samples: Array, value: Array, valid: Mask) -> list[tuple[Array, Mask]]:
@@ -307,16 +330,22 @@ class Bank:
     def _before(self, count: int) -> list[Array | None]:
         """What the filters show, in each of the last samples, of the time before the onset.
 
-        (n, residuals) for each hypothesis, None where it is no more than the rounding of a number.
+        Less the impulses of the onset. (n, residuals) for each hypothesis, None where it is no more
+        than the rounding of a number.
         """
         found: list[Array | None] = []
         shares: dict[int, Array] = {}  # by age, as most have the same
+        falls: dict[int, Array] = {}  # of these within a sample: how an impulse shows
         for lane in self._lanes:
             if lane.left is not None and lane.age not in shares:
                 ages = lane.age - count + 1 + np.arange(count)
                 shares[lane.age] = _forgotten(self.engine, ages)
-            found.append(None if lane.left is None else lane.left * shares[lane.age])
-            if lane.left is not None and np.max(shares[lane.age][-1]) < np.finfo(float).eps / 2.0:
+                falls[lane.age] = _forgotten(self.engine, ages - 1) - shares[lane.age]
+            if lane.left is None:
+                found.append(None)
+                continue
+            found.append(lane.left * shares[lane.age] - lane.impulse * falls[lane.age])
+            if np.max(shares[lane.age][-1]) < np.finfo(float).eps / 2.0:
                 lane.left = None
         return found
 
@@ -387,6 +416,13 @@ class Bank:
         return column + step * column
 
 
+def _rest(engine: Engine) -> int:
+    """The samples after which a filter shows next to nothing of what came before."""
+    constants = _GONE + max(engine.stages, default=0)
+    lag = max(engine.lags, default=0.0)
+    return math.ceil((constants / engine.bandwidth + lag) / engine.sample_time)
+
+
 def _forgotten(engine: Engine, samples: npt.NDArray[np.intp]) -> Array:
     """What filters still show after so many samples of what was constant before, (n, residuals).
 
@@ -398,80 +434,15 @@ def _forgotten(engine: Engine, samples: npt.NDArray[np.intp]) -> Array:
     return np.asarray(gammaincc(engine.stages, constants[:, None]))
 
 
-def _summed(table: Array, ends: npt.NDArray[np.intp]) -> Array:
+def summed(table: Array, ends: npt.NDArray[np.intp]) -> Array:
     """Sums along the second axis up to each end and behind the last; or whether all are true.
 
-    >>> _summed(np.arange(5.0)[None], np.array([1, 3])).tolist()
+    >>> summed(np.arange(5.0)[None], np.array([1, 3])).tolist()
     [[1.0, 5.0, 4.0]]
     """
     begins = np.append(0, ends + 1)
     add = np.logical_and if table.dtype == np.bool_ else np.add
     return np.asarray(add.reduceat(table, begins[begins < table.shape[1]], axis=1))
-
-
-def staying(before: Array, since: Array) -> float:
-    """Where a command was, (n,) samples before an onset and since, that is not followed any more.
-
-    Where it moves at the onset it is where it was. Where it stands there nothing would show yet: it
-    was not followed in its last step, on the way of which there may be a sample.
-
-    >>> staying(np.array([1.0, 2.0, 3.0]), np.array([4.0, 5.0]))
-    3.0
-    >>> staying(np.array([1.0, 1.0, 2.4, math.nan, 3.0, 3.0]), np.array([3.0, 5.0]))
-    1.0
-    """
-    before, since = before[np.isfinite(before)], since[np.isfinite(since)]
-    if not len(before):
-        return float(since[0]) if len(since) else math.nan
-    others = np.flatnonzero(before != before[-1])
-    if not len(others) or (len(since) and since[0] != before[-1]):
-        return float(before[-1])
-    return float(before[max(int(others[-1]) - 1, 0)])
-
-
-class Instead:
-    """The residuals of a machine in which a position is `held`: told that, they should be quiet.
-
-    The programs of the `bank` on the same samples with the position in place of what is told, from
-    the moment at which it begins, beside `as_told`, a bank of the same hypotheses.
-    """
-
-    def __init__(self, bank: Bank, as_told: Bank, held: Stuck) -> None:
-        self._bank, self._as_told, self.held = bank, as_told, held
-        place = {k.path: at for at, k in enumerate(bank.engine.signals)}
-        self._at, self._modes = place[held.signal], [place[m] for m in held.modes]
-        self._moved = np.zeros(len(bank.engine.residuals), dtype=np.bool_)
-
-    def rows(
-        self, samples: Array, ends: Sequence[int], lengths: Sequence[int]
-    ) -> tuple[Array, Array, Mask]:
-        """By how much it moves residuals, and their slopes, beside what was told.
-
-        At the ends of rows and in averages over them (see `Bank.rows`), both (rows, 1 + slopes,
-        residuals); and which are valid at the ends. Residuals that the position cannot have moved
-        in the modes that were told so far are to be judged as they were told: they should be quiet
-        as well.
-        """
-        told = samples.copy()
-        told[:, self._at] = self.held.position
-        both = [bank.rows(table, ends, lengths)
-                for bank, table in ((self._bank, told), (self._as_told, samples))]  # fmt: skip
-        other, own = self._bank.batch, self._as_told.batch
-        assert other is not None and own is not None
-        moved = np.zeros(other.valid.shape, dtype=np.bool_)
-        if len(samples):
-            moved = self.held.moved(samples[:, self._modes], self._bank.engine.residuals)
-            moved[0] |= self._moved
-            moved = np.logical_or.accumulate(moved, axis=0)
-            self._moved = moved[-1]
-        value = np.where(moved & other.valid & own.valid, other.value - own.value, 0.0)
-        at = np.asarray(ends, dtype=np.intp)
-        sums = _summed(value[None], at)[0, : len(at)] if len(at) else value[:0]
-        values = value[at], sums / np.asarray(lengths)[:, None]
-        slopes = [np.where(moved[at][:, None], a - b, 0.0) for a, b in zip(*both, strict=True)]
-        last, means = (np.concatenate([one[:, None], by], axis=1)
-                       for one, by in zip(values, slopes, strict=True))  # fmt: skip
-        return last, means, other.valid[at] | ~moved[at]
 
 
 def hypotheses(

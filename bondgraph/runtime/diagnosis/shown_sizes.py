@@ -10,7 +10,7 @@ import numpy as np
 from bondgraph.ir.residual_limit import ShownSize
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, directions
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
-from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
+from bondgraph.runtime.diagnosis.hypotheses import ALL, Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.noise import COVERED, left_for_drift
 from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.rows import model_error
@@ -95,6 +95,7 @@ class ShownSizes:
         self._level = followed(self._table, -(-self._length // self._every), HEALTHY)
         # each as what may jump; behind them those that need not
         self._lasting = [h for h in all_ if h.fault in model.dynamic]
+        self._front = [max(model.dynamic[h.fault]) for h in self._lasting]
         self._ways = [*all_, *self._lasting]
         #: The whole of what each way changes, 0 where it has no direction (see `directions`).
         along = dict(zip(*directions(all_, model), strict=True))
@@ -107,18 +108,14 @@ class ShownSizes:
 
     def add(self, samples: Array, whole: WholeThresholds, history: History) -> None:
         """Take the windows of one more log, whose thresholds begin with it, and what it tells."""
-        engine, nominal = whole.engine, self._model.nominal
+        engine = whole.engine
         start = math.ceil(engine.warm_up / engine.sample_time) + 1
         behind = engine.configured(bounds=False)  # where it was a warm-up ago
         whole.run(samples[:start])
         for begin in range(start, len(samples) - self._length + 1, self._length):
             part = samples[begin : begin + self._length]
-            bank = Bank(copied(engine), self._all, nominal, samples[begin - 1])
-            slopes = bank.run(part)
+            slopes = self._moved(engine, behind, samples[begin - start : begin], part)
             if self._lasting:
-                past = Bank(copied(behind), self._lasting, nominal)
-                past.onset(past.run(samples[begin - start : begin], [start - 1])[0])
-                slopes = np.concatenate([slopes, past.run(part)], axis=1)
                 behind.run(samples[begin - start : begin - start + self._length])
             batch, tolerated, doubt = whole.run(part)
             if self._ways:
@@ -126,6 +123,28 @@ class ShownSizes:
                 seen = self._seen(slopes, batch, known, engine.sample_time)
                 for own, one in zip(self._found, seen, strict=True):
                     own.append(one)
+
+    def _moved(self, engine: Engine, behind: Engine, past: Array, part: Array) -> Array:
+        """What each way does to residuals in a window, (n, ways, residuals), of a unit.
+
+        One engine stands before the window, the other one `behind`, before the samples of the past.
+        """
+        nominal, last = self._model.nominal, past[-1]
+        moved = Bank(copied(engine), self._all, nominal, last).run(part)
+        if not self._lasting:
+            return moved
+        always = Bank(copied(behind), self._lasting, nominal)
+        left = always.run(past, [len(past) - 1])[0]
+        jumps = Bank(copied(engine), self._lasting, nominal, last) if 1 in self._front else None
+        found = []
+        for front in (0, 1)[: 1 + (jumps is not None)]:
+            bank = always.copied()
+            bank.onset(left, jumps if front else None)
+            found.append(bank.run(part))
+        for k, h in enumerate(self._lasting):
+            if self._front[k] < ALL:
+                moved[:, self._all.index(h)] = found[int(self._front[k])][:, k]
+        return np.concatenate([moved, found[0]], axis=1)
 
     def shown(self) -> tuple[Shown, ...]:
         """What can be seen of each hypothesis, in the order of all."""

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from itertools import accumulate
+from types import MappingProxyType
 
 import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import drifting
+from bondgraph.runtime.diagnosis.held_positions import Instead, staying
 from bondgraph.runtime.diagnosis.history import History
-from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead, Stuck, staying
+from bondgraph.runtime.diagnosis.hypotheses import ALL, Bank, Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.isolation import (
     BEHIND,
     FLAT,
@@ -53,11 +55,12 @@ class _Onset(NamedTuple):
     """When a fault began, so many healthy samples before the first row, and how.
 
     A storage that becomes another one keeps its charge or momentum, so that what is measured jumps,
-    or is `smooth`: what is measured goes on, as where it is filled up or something comes off.
+    or what is measured goes on, as where it is filled up or something comes off. What tells one
+    from the other is how many derivatives stand in `front` of what has become another one.
     """
 
     earlier: int
-    smooth: bool = False
+    front: float = ALL
 
 
 class _Begun(NamedTuple):
@@ -128,7 +131,7 @@ class SinceOnset:
         nominal: Mapping[str, float],
         tolerated: Sequence[Hypothesis],
         machine: Mapping[str, float],
-        dynamic: Container[str] = (),
+        dynamic: Mapping[str, Sequence[float]] = MappingProxyType({}),
         before: Sequence[Row] = (),
         own: int = 0,
     ) -> None:
@@ -138,7 +141,7 @@ class SinceOnset:
         self._sized = [k for k, h in enumerate(self._all) if h.held is None]
         self._tolerated = tuple(tolerated)
         self._machine = machine
-        self._dynamic = {k for k, h in enumerate(self._all) if h.fault in dynamic}
+        self._ways = [dynamic.get(h.fault, (ALL,)) for h in self._all]
         shape = len(self._all), len(engine.residuals)
         self._waiting: list[tuple[Row, Array]] = []  # with the limits of each residual
         self._past: list[tuple[Row, Array]] = []
@@ -298,8 +301,7 @@ class SinceOnset:
         onsets, numbers = self._onsets(), len(self._past) * len(every) * self._slopes.shape[1]
         at_once = max(1, _AT_ONCE // max(1, numbers))
         for start in range(0, len(onsets), at_once):
-            begun = [self._begun([k for k in every if not own.smooth or k in self._dynamic],
-                                 own, changes)
+            begun = [self._begun([k for k in every if own.front in self._ways[k]], own, changes)
                      for own in onsets[start : start + at_once]]  # fmt: skip
             rows, others = self._weighed(history, seen, [
                 {one.numbers.index(k): told for k, told in one.held.items()} for one in begun
@@ -320,8 +322,8 @@ class SinceOnset:
         lags = [round(lag / self._engine.sample_time) for lag in self._engine.lags]
         found = dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS)
         known = [earlier for earlier in found if earlier <= len(self._healthy)]
-        return [_Onset(n, smooth) for smooth in (False, True)[: 1 + bool(self._dynamic)]
-                for n in known]  # fmt: skip
+        ways = sorted({way for own in self._ways for way in own}, reverse=True)
+        return [_Onset(n, way) for way in ways for n in known]
 
     def _banked(
         self,
@@ -349,11 +351,12 @@ class SinceOnset:
     def _begun(self, own: Sequence[int], onset: _Onset, changes: Mapping[int, float]) -> _Begun:
         """Let hypotheses, by their numbers, begin at an onset, and have the changes.
 
-        A smooth one is that of a machine that has always been so, but for what filters show of the
-        time before.
+        Without all derivatives in front it is that of a machine that has always been so, but for
+        what filters show of the time before; with one of them they get an impulse.
         """
         count = len(self._healthy) - onset.earlier
-        before, begin = self._onset(len(self._healthy) if onset.smooth else onset.earlier)
+        always = onset.front < ALL
+        before, begin = self._onset(len(self._healthy) if always else onset.earlier)
         past, healthy = self._healthy[:count], self._healthy[count:]
         samples, ends, lengths = self._since(count)
         held: dict[int, _Held] = {}
@@ -375,8 +378,10 @@ class SinceOnset:
             bent, bank = {}, self._banked(before, known, begin, {})
         shape = len(own), self._slopes.shape[1]
         moves = Moves(*[np.zeros((n + len(self._past), *shape)) for n in (0, LAGS)])
-        if onset.smooth and count:
-            bank.onset(bank.run(past, [count - 1])[0])
+        if always and count:
+            jumps = self._onset(onset.earlier) if onset.front else None
+            bank.onset(bank.run(past, [count - 1])[0],
+                       jumps and self._banked(jumps[0], known, past[-1], bent))  # fmt: skip
         if sized and self._past:
             which = [k not in held for k in own]
             found = Moves.behind(*bank.rows(samples, ends, lengths), len(self._past))
