@@ -18,6 +18,7 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 _LOUDER = 4.0  # times the variance of noise: twice as loud
 _SQUARE, _LOUD = 0.5 * (1.0 - 1.0 / _LOUDER), 0.5 * math.log(_LOUDER)
 SUMS = 5  #: of each residual
+OVER = math.log(20.0)  #: how much more probable it has to be that a fault is over (Wald, 1945)
 _FURTHER = np.array([[0.0], [0.0], [OVERSHOOT], [0.0], [0.0]])  # added to the heights of a mean
 
 
@@ -30,12 +31,13 @@ class Cusum:
     memory (see `Lasting`): they see what stays and is small beside the noise from row to row.
     Heights are above what `Peaks` tell.
 
-    `limits` have the columns of `Limit`. A sum climbs no higher than twice its
-    height, so that an alarm ends soon; of a machine that is known to be `healthy` as high as it is.
+    `limits` have the columns of `Limit`. A sum climbs no further above its height than what makes
+    it twenty times as probable that a fault is over: where it has come down by that, no alarm would
+    be given any more. Of a machine that is known to be `healthy` it climbs as high as it is.
     """
 
     def __init__(self, residuals: int, learns: bool = True, healthy: bool = False) -> None:
-        self._learns, self._most = learns, math.inf if healthy else 2.0
+        self._learns, self._above = learns, math.inf if healthy else OVER
         self._peaks = Peaks(SUMS, residuals)
         self._since = np.zeros((SUMS, residuals))  # rows since each sum was zero
         self.restart()
@@ -90,7 +92,7 @@ class Cusum:
             loud = (size**2 * _SQUARE - _LOUD) / squares
             loud = np.minimum(loud, SHARE * top[2])
             more = np.vstack([off, loud[None], self._lasting(row, limits)])
-            after = np.clip(self.sums + more, 0.0, self._most * top)
+            after = np.clip(self.sums + more, 0.0, top + self._above)
         self.sums = np.where(known & np.isfinite(more), after, 0.0)
         if self._learns:
             self._peaks.learn(self.sums)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.cusum import Cusum
+from bondgraph.runtime.diagnosis.cusum import OVER, Cusum
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.row_averages import added
@@ -18,7 +18,6 @@ from bondgraph.runtime.diagnosis.score_sums import ScoreSums
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
-_OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
 _QUIET = 2  # rows, at least: what moves through zero is quiet in one
 _STILL = 8  # rows at least that no alarm would be given in, until it is over for that alone
 _OUT = 3.0  # deviations that noise by itself hardly reaches
@@ -208,7 +207,7 @@ class Detection:
         high = self._cusum.high(limits) | self.scores.high(limits)
         high |= np.abs(excess) > limits[:, 2]
         self._still = 0 if (row.valid & self.fired & high).any() else self._still + quiet
-        enough = bool(own.sum() > _OVER)
+        enough = bool(own.sum() > OVER)
         return (enough and self._quiet >= self._needed) or self._still >= max(self._pause, _STILL)
 
     def _without(self, moved: Moves, row: Row, limits: Array) -> tuple[Array, Mask]:

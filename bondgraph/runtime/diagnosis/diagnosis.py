@@ -6,6 +6,7 @@ import itertools
 import math
 from collections import deque
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from bondgraph.runtime.diagnosis.healthy import (
 )
 from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
+from bondgraph.runtime.diagnosis.input_moves import passed_on
 from bondgraph.runtime.diagnosis.isolation import Explained
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
@@ -113,7 +115,8 @@ class Diagnosis:
         encoders = {k.path: at for at, k in enumerate(engine.signals)
                     if k.path in model.faults and k.counts is not None}  # fmt: skip
         modes = [at for at, k in enumerate(engine.signals) if k.kind == "mode"]
-        self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders, modes, most)
+        self._checks = SignalChecks(names, at, engine.sample_time, inputs, encoders, modes, most,
+                                    partial(passed_on, engine, names))  # fmt: skip
         self._checkpoints, self._rows = Checkpoints(), 0
         self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()

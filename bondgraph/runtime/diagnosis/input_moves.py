@@ -6,11 +6,15 @@ may turn as sharply as it never did. A peak of the voltage there is no error of 
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
 from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.plain import array, numbers
 
 _LATE = 2  # samples behind a move in which a sensor answers to it
@@ -49,11 +53,12 @@ class InputMoves:
         self._squares[0] += np.square(answers).T @ (1.0 * (large > 0.0))
         self._squares[1] += (1.0 * known).T @ np.square(large)
 
-    def explain(self, bends: Array, follows: Mask) -> Array:
+    def explain(self, bends: Array, most: Array) -> Array:
         """How far sensors may be bent at samples (n, signals) by what inputs do there or did just
-        before, with `bends` as above; not by an input that `follows` a sensor, (signals, inputs).
+        before, with `bends` as above; by a unit of an input no further than `most`, (signals,
+        inputs).
 
-        By an input of which no move is known a sensor may go anywhere.
+        By an input of which no move is known a sensor may go as far as that.
         """
         moves = np.nan_to_num(_most(bends[:-_LATE, self._inputs]))
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -61,7 +66,7 @@ class InputMoves:
         share = np.where(self._squares[1] > 0.0, share, np.inf)
         found = np.zeros((len(moves), len(self._sensors)))
         for at, move in enumerate(moves.T):
-            passes = np.where(follows[:, at] | ~self._sensors, 0.0, share[:, at])
+            passes = np.where(self._sensors, np.minimum(share, most)[:, at], 0.0)
             moving = move > 0.0
             found[moving] = np.maximum(found[moving], move[moving, None] * passes)
         return found
@@ -75,6 +80,24 @@ class InputMoves:
         largest, squares = state
         self._largest = array(largest, self._largest.shape)
         self._squares = array(squares, self._squares.shape)
+
+
+def passed_on(engine: Engine, names: Sequence[str], sample: Array, sizes: Array) -> Array:
+    """How far a signal goes at most, in one sample, for a unit that another one goes in it.
+
+    By the relations that have both, (signals, signals), infinite where none has: by how much the
+    other one moves such a residual in that sample, over by how much the signal itself does. Near a
+    `sample` of all signals, with the `sizes` of those that have these names.
+    """
+    known = [Hypothesis(name, "offset", "", float(size), False)
+             for name, size in zip(names, sizes, strict=True)]  # fmt: skip
+    rests = engine.configured(bounds=False)
+    rests.run(np.repeat(sample[None], math.ceil(rests.warm_up / rests.sample_time) + 1, axis=0))
+    moved = np.abs(Bank(rests, known, {}, sample).run(sample[None])[0])
+    both = (moved[:, None] > 0.0) & (moved[None] > 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(both, moved[None] / moved[:, None], 0.0).max(axis=2, initial=0.0)
+    return np.where(both.any(axis=2), ratio, math.inf)
 
 
 def _most(bends: Array) -> Array:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.ir.residual_limit import SHARE
+from bondgraph.runtime.diagnosis.cusum import OVER
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.noise import COVERED
 from bondgraph.runtime.diagnosis.peaks import Peaks
@@ -62,7 +63,7 @@ class ScoreSums:
     ) -> None:
         self._sizes, self._shape = np.abs(sizes)[:, None], (2, len(sizes), residuals)
         self._tolerated: Mask = np.array(tolerated or [False] * len(sizes), dtype=np.bool_)
-        self._learns, self._most = learns, math.inf if healthy else 2.0
+        self._learns, self._above = learns, math.inf if healthy else OVER
         self._peaks = Peaks(*self._shape)
         #: What rows tell of a change of one, and its squares: sums of all so far.
         self._tells = np.zeros((2, *self._shape[1:]))
@@ -142,7 +143,7 @@ class ScoreSums:
             self._go_on(sums, np.isfinite(sums) & ~first, weight, slopes, moves)
             self._make_room(step, history)
         self._learn(first, healthy)
-        self.sums -= np.maximum(self.beyond - self._most * top, 0.0)  # so that an alarm ends soon
+        self.sums -= np.maximum(self.beyond - top - self._above, 0.0)  # as a Cusum
         if self._learns:
             self._peaks.learn(self.beyond)
         return np.asarray((self.beyond > top).any(axis=(0, 1)))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Collection, Container, Mapping, Sequence
+from collections.abc import Callable, Collection, Container, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
@@ -106,11 +106,12 @@ class SignalChecks:
         self, names: Sequence[str], at: Sequence[int], sample_time: float,
         inputs: Container[str] = (), encoders: Mapping[str, int] = MappingProxyType({}),
         modes: Sequence[int] = (), pause: int = PAUSE,
+        passed_on: Callable[[Array, Array], Array] | None = None,
     ) -> None:  # fmt: skip
         self._pause = pause
         self._encoders = StandingEncoders(encoders)
         self._names, self._at, self._step = tuple(names), list(at), sample_time
-        self._inputs = inputs
+        self._inputs, self._passed_on = inputs, passed_on
         self._drive = np.array([name in inputs for name in self._names], dtype=np.bool_)
         self._steer = [*np.array(self._at, dtype=int)[self._drive].tolist(), *modes]
         count = len(self._names)
@@ -168,6 +169,7 @@ class SignalChecks:
     ) -> tuple[dict[str, Unusual], Container[str]]:
         """What signals show each by itself, and inputs that move as never before."""
         own = np.where(np.isfinite(samples), samples, math.nan)[:, self._at]
+        self._full = samples[0]
         with_last = np.concatenate([self._last, own])
         steered = np.concatenate([self._steered, samples[:, self._steer]])
         runs, ended, changes = self._runs(own)
@@ -259,13 +261,17 @@ class SignalChecks:
         """Whether a command does what a sensor has shown some samples before: a controller reads
         it. What a sensor shows of a machine that is driven comes with the command, or behind it.
         """
+        return self._later(sensor, command) > 0
+
+    def _later(self, sensor: str, command: str) -> float:
+        """Samples after which a command does what a sensor has shown, NaN if it does not."""
         one, other = (self._error[:, self._names.index(name)] for name in (sensor, command))
         size = math.sqrt(float(one @ one) * float(other @ other))
         along = [abs(float(one[: len(one) - max(lag, 0)][max(-lag, 0) :]
                            @ other[max(lag, 0) :][: len(other) - max(-lag, 0)]))
                  for lag in range(-_SIDE, _SIDE + 1)]  # fmt: skip
         best = int(np.argmax(along))
-        return best > _SIDE and along[best] > _FOLLOWS * size
+        return best - _SIDE if along[best] > _FOLLOWS * size else math.nan
 
     def _noisy(self) -> set[str]:
         """The signals whose noise was told and goes on, whatever a controller makes of it."""
@@ -508,17 +514,23 @@ class SignalChecks:
         """Which samples of a row, how much of a spike each is, inputs explain by their own moves.
 
         Looked at where one is larger than what is known. An input that does some samples later what
-        a sensor has shown follows it, and explains nothing of it.
+        a sensor has shown follows it, and explains nothing of it. One that does it in the very
+        sample may be what a controller makes of it: it explains what relations say a machine does.
         """
         larger = (spike > _OUT * self._far) & (self._samples >= _ENOUGH) & ~self._drive
         if not larger.any():
             return np.zeros(spike.shape, dtype=np.bool_)
-        inputs = [name for name in self._names if name in self._inputs]
-        follows = np.zeros((len(self._names), len(inputs)), dtype=np.bool_)
+        at = np.flatnonzero(self._drive)
+        most, passed_on = np.full((len(self._names), len(at)), math.inf), None
         for k in np.flatnonzero(larger.any(axis=0)).tolist():
-            follows[k] = [self._leads(self._names[k], name) for name in inputs]
+            later = np.array([self._later(self._names[k], self._names[j]) for j in at.tolist()])
+            most[k, later > 0] = 0.0
+            if (later == 0).any() and self._passed_on is not None:
+                if passed_on is None:
+                    passed_on = self._passed_on(self._full, self._range[1] - self._range[0])
+                most[k, later == 0] = passed_on[k, at][later == 0]
         own = self._bends[_SIDE : len(self._bends) - _SIDE]
-        return larger & (own <= _OUT * self._moves.explain(self._bends, follows))
+        return larger & (own <= _OUT * self._moves.explain(self._bends, most))
 
     def _steps(self, error: Array) -> Mask:
         """Where a step to or from a sample explains more of the errors around it than a spike does.

@@ -142,6 +142,19 @@ def test_a_fault_that_is_told_teaches_nothing() -> None:
     assert cusum.heights(np.array([5.0])).max() == pytest.approx(5.0)
 
 
+def test_an_alarm_is_high_until_rows_make_it_twenty_times_as_probable_that_it_is_over() -> None:
+    # a mean that is one deviation off, or none: a row at zero makes none exp(1/2) times as probable
+    for size in (2.0, 20.0):
+        cusum, limits = Cusum(1, learns=False), _limits()
+        for _ in range(200):
+            cusum.add(_row(size), limits)
+        rows = 0
+        while cusum.high(limits).any():
+            cusum.add(_row(0.0), limits)
+            rows += 1
+        assert rows == math.ceil(math.log(20.0) / 0.5)
+
+
 def test_rows_are_held_until_the_sums_are_zero_again() -> None:
     cusum, held = Cusum(1), []
     for value in (0.0, 1.0, 1.0, 0.0, -0.2, -0.4, -0.4, 1.2):

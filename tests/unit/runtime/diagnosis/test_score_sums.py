@@ -67,6 +67,19 @@ def test_noise_comes_to_the_height_a_quarter_as_often_as_to_that_of_a_test_at_mo
     assert 0.05 * wanted < alarms < 0.25 * wanted
 
 
+def test_an_alarm_is_high_until_rows_make_it_twenty_times_as_probable_that_it_is_over() -> None:
+    # rows at zero that tell most make it exp(1/2) times as probable each
+    sums = _sums(learns=False)
+    assert _first(sums, 5.0 * _SWING[:200], _SWING) is not None
+    for move in _SWING[:200]:
+        sums.add(_row(np.array([5.0 * move]), np.array([move])), _limits(), _NOTHING)
+    rows = 0
+    while sums.high(_limits()).any():
+        sums.add(_row(np.zeros(1), _SWING[rows : rows + 1]), _limits(), _NOTHING)
+        rows += 1
+    assert rows == math.ceil(math.log(20.0) / (0.5 + 0.01)), "and what the whole of it takes off"
+
+
 def test_what_swings_is_seen_where_sums_of_the_residual_see_nothing() -> None:
     top = 12.0
     limits = np.array([Limit(1.0, 1.0, 4.0, top, unit=1.0)])
