@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from bondgraph.compilation import Compilation
-from bondgraph.exact.offsets import square_part
 from bondgraph.text.source import Source
 
 _TWO_RATIOS = """bg 1
@@ -63,9 +62,3 @@ model M { param k = 3; param r = 2; input u
   0:c { -> R:r } }
 """
     assert _signature(text) == {"r1": ["k", "r", "u", "y"]}
-
-
-def test_the_square_part() -> None:
-    # 0 and 1 share two variables; 2 has a third that nothing else holds, and one to spare
-    assert square_part([{0: 0, 1: 0}, {0: 0, 1: 0}, {1: 0, 2: 0, 3: 0}], 4) == [(0, 0), (1, 1)]
-    assert square_part([{0: 0}, {0: 0}], 1) == [(0, 0), (1, -1)]

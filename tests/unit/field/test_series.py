@@ -181,3 +181,145 @@ def test_a_table_read_backwards_has_no_value_from_either_end_on() -> None:
             f.table(f"table:{back}", [f.number(end)])
     value, slope, *_ = f.table(f"table:{back}", [f.number(2)])
     assert not f.nonzero(3 * value - 4) and not f.nonzero(3 * slope - 2)
+
+
+@kinds
+@pytest.mark.parametrize("name", [*_ONE, "table:t"])
+def test_a_function_of_a_short_series_is_that_of_one_with_zeros_behind(
+    f: Numbers, name: str
+) -> None:
+    done = 0
+    for seed in range(20):
+        for length in (1, 2, 3):
+            short = random_series(f, seed, length)
+            long = short + [0] * (N - length)
+            try:
+                whole = series.function(f, name, long, N)
+                found = series.function(f, name, short, N)
+            except Undefined:
+                continue
+            assert same(f, found, whole)
+            slope = series.slope_of(f, name, short, found, N)
+            assert same(f, slope, series.slope_of(f, name, long, whole, N))
+            fewer = series.function(f, name, long, 4)
+            assert len(fewer) <= 4 or name in ("abs", "sign")
+            assert same(f, fewer[:4], whole[:4], 4)
+            done += 1
+    assert done > 3
+
+
+@kinds
+@pytest.mark.parametrize("name", ["pow", "atan2", "table:m"])
+@pytest.mark.parametrize("lengths", [(1, 1), (1, 3), (2, 1), (3, 2)])
+def test_a_function_of_two_short_series_is_that_of_two_with_zeros_behind(
+    f: Numbers, name: str, lengths: tuple[int, int]
+) -> None:
+    done = 0
+    for seed in range(20):
+        a, b = random_series(f, seed, lengths[0]), random_series(f, seed + 50, lengths[1])
+        long = [x + [0] * (N - len(x)) for x in (a, b)]
+        try:
+            whole = series.function_of_two(f, name, *long, N)
+            found = series.function_of_two(f, name, a, b, N)
+        except Undefined:
+            continue
+        assert same(f, found, whole)
+        both = zip(
+            series.slopes_of_two(f, name, a, b, found, N),
+            series.slopes_of_two(f, name, *long, whole, N),
+            strict=True,
+        )
+        assert all(same(f, x, y) for x, y in both)
+        done += 1
+    assert done > 3
+
+
+@kinds
+@pytest.mark.parametrize(
+    ("name", "a", "expected"),
+    [
+        ("abs", [0, 0, -3, 1], [0, 0, 3, -1]),  # of what falls from zero
+        ("abs", [0, 2, -5], [0, 2, -5]),
+        ("abs", [0], [0]),
+        ("ssq", [0, -2, 1], [0, 0, -4, 4, -1]),
+        ("ssq", [0, 3], [0, 0, 9]),
+        ("sign", [0], [0]),
+        ("sign", [0, 0, 0], [0]),
+        ("cbrt", [0, 0, 0, 8], [0, 2]),
+        ("cbrt", [0, 0, 0, -8], [0, -2]),
+        ("ssqrt", [0, 0, 4, 4, 1], [0, 2, 1]),  # t (2 + t), squared
+        ("ssqrt", [0, 0, -4, -4, -1], [0, -2, -1]),
+        ("cbrt", [0, 0], [0]),
+        ("ssqrt", [0], [0]),
+        ("sqrt", [0], [0]),
+        ("sqrt", [0, 0], [0]),
+    ],
+)
+def test_functions_of_a_signal_that_leaves_zero(
+    f: Numbers, name: str, a: list[int], expected: list[int]
+) -> None:
+    told = [f.number(x) for x in a]
+    found, wanted = series.function(f, name, told, N), [f.number(x) for x in expected]
+    s = 1 if f.real or f.sign(2) == 1 else -1  # the positive one of two roots may be -2
+    assert same(f, found, wanted) or (s < 0 and same(f, found, series.scale(-1, wanted)))
+
+
+@kinds
+@pytest.mark.parametrize(
+    ("name", "a"),
+    [
+        ("sign", [0, 1]),
+        ("sign", [0, 0, -1]),
+        ("sqrt", [0, 1]),
+        ("sqrt", [0, 0, 4]),
+        ("ssqrt", [0, 1]),
+        ("ssqrt", [0, 0, 0, 1]),
+        ("cbrt", [0, 1]),
+        ("cbrt", [0, 0, 1]),
+    ],
+)
+def test_functions_that_have_no_series_where_a_signal_leaves_zero(
+    f: Numbers, name: str, a: list[int]
+) -> None:
+    with pytest.raises(Undefined):
+        series.function(f, name, [f.number(x) for x in a], N)
+
+
+@kinds
+def test_rational_powers_of_nothing_are_nothing_or_have_no_value(f: Numbers) -> None:
+    for zero in ([f.number(0)], [f.number(0), f.number(0)]):
+        for exponent in (Fraction(1, 2), Fraction(7, 3)):
+            assert same(f, series.rational_power(f, zero, exponent, N), [0])
+        for exponent in (Fraction(-1, 2), Fraction(-2)):
+            with pytest.raises(Undefined):
+                series.rational_power(f, zero, exponent, N)
+    two = [f.number(2), f.number(3)]
+    assert same(f, series.rational_power(f, two, Fraction(2), N), [4, 12, 9])
+    assert same(f, series.power(f, two, 0, N), [1])
+    assert same(f, series.power(f, two, 3, 2), [8, 36], 2)
+
+
+@kinds
+def test_the_smaller_and_the_larger_of_two_are_taken_whole_with_their_slopes(f: Numbers) -> None:
+    """1 + 5 t and 2 - t: what is compared are the values at the point."""
+    a, b = ([f.number(x) for x in told] for told in ((1, 5), (2, -1)))
+    above = f.sign(b[0] - a[0]) > 0  # signs in a field are another order
+    low, high = (a, b) if above else (b, a)
+    assert series.function_of_two(f, "min", a, b, 2) == low
+    assert series.function_of_two(f, "max", a, b, 2) == high
+    ones, zeros = ([1], [0])
+    first, second = (ones, zeros), (zeros, ones)
+    assert series.slopes_of_two(f, "min", a, b, low, 2) == (first if above else second)
+    assert series.slopes_of_two(f, "max", a, b, high, 2) == (second if above else first)
+
+
+def test_tables_of_one_argument_have_one_slope_and_maps_two() -> None:
+    f = KINDS[1]
+    a, b = [f.fraction(Fraction(1, 2)), f.number(2)], [f.number(0), f.number(3)]
+    value, slope = series.table(f, "table:t", [a], 2)  # between 0 and 1 it rises with 1
+    assert same(f, value, [f.inverse(2), 2], 2) and same(f, slope, [1], 2)
+    # (5 x + 6) (y + 3) between -1 and 2: 8.5 * 3, moving by 5 * 3 * 2 + 8.5 * 3
+    value, by_x, by_y = series.table(f, "table:m", [a, b], 2)
+    assert same(f, value, [f.fraction(Fraction(51, 2)), f.fraction(Fraction(111, 2))], 2)
+    assert same(f, by_x, [15, 15], 2)  # 5 (y + 3), and y rises by 3
+    assert same(f, by_y, [f.fraction(Fraction(17, 2)), 10], 2)

@@ -4,7 +4,6 @@ from random import Random
 
 import pytest
 
-from bondgraph.exact.offsets import offsets
 from bondgraph.field.balls import Reals
 from bondgraph.field.numbers import Number, Numbers
 from bondgraph.field.prime import PrimeField
@@ -84,16 +83,3 @@ def test_a_long_chain_stays_sparse() -> None:
     pivots = eliminate(KINDS[0], rows)
     assert len(pivots) == size
     assert sum(len(p.row) for p in pivots) < 8 * size
-
-
-def test_offsets_of_the_pendulum() -> None:
-    # Pryce (2001), example: x'' = -x T, y'' = -y T + g, x^2 + y^2 = l^2
-    found = offsets([{0: 2, 2: 0}, {1: 2, 2: 0}, {0: 0, 1: 0}], 3)
-    assert found.equations == [0, 0, 2]
-    assert found.variables == [2, 2, 0]
-    assert found.free == found.unmatched == []
-
-
-def test_offsets_tell_what_is_free_and_what_is_too_much() -> None:
-    assert offsets([{0: 0, 1: 1}], 2).free in ([0], [1])
-    assert offsets([{0: 0}, {0: 1}], 1).unmatched == [1]
