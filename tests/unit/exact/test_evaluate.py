@@ -128,9 +128,7 @@ def test_what_has_no_value_is_missed_where_it_is_needed_only() -> None:
 
 def test_sums_and_products_are_computed_at_once_and_powers_inverted_once() -> None:
     """3/x^2 - 5 b x + a - 1/2 x^3 is 3/4 + 40 + 3 - 4, and 1/y^2 has no value there either."""
-    root = add(
-        (3, pool.power(x, -2)), (-5, mul(b, x)), (1, a), (Fraction(-1, 2), pool.power(x, 3))
-    )
+    root = add((3, pool.power(x, -2)), (-5, mul(b, x)), (1, a), (Fraction(-1, 2), pool.power(x, 3)))
     f = Numbered().algebra.numbers
     assert evaluate([root], Numbered())[0] == [f.fraction(Fraction(159, 4))]
     both = add((1, pool.power(x, -1)), (1, mul(a, pool.power(x, -3))))

@@ -69,3 +69,55 @@ def test_exponentials_have_no_root(kind: Kind, refused: type[Exception]) -> None
     numbers = PrimeField(1)
     with pytest.raises(refused):
         evaluate([of], FreeSample(Exponentials(numbers, 3, 5), 0, 1))
+
+
+class OfPlant(Told):
+    """A point of a plant that says what the variable of the root truly is."""
+
+    def __init__(self, true: int | None, healthy: bool, *coefficients: int) -> None:
+        super().__init__(*coefficients)
+        self.true, self.healthy = true, healthy
+
+    def truly(self, _: Expr) -> object:
+        return None if self.true is None else arb(self.true)
+
+
+def test_on_a_healthy_plant_the_variable_has_to_solve_the_equation() -> None:
+    """x + x^3 = 10 is solved by 2; a plant without the variable lets it be searched for."""
+    assert evaluate([x], OfPlant(2, True, 10), 1)[0] == [2]
+    for wrong in (3, None):
+        with pytest.raises(Undefined):
+            evaluate([x], OfPlant(wrong, True, 10), 1)
+        found = evaluate([x], OfPlant(wrong, False, 10), 1)[0]
+        assert abs(float(found[0]) - 2) < 1e-12
+    assert evaluate([x], OfPlant(2, False, 10), 1)[0] == [2]
+
+
+def test_in_a_field_a_faulty_plant_has_no_solution_to_search_for() -> None:
+    class InField(OfPlant):
+        algebra = Taylor(PrimeField(1))  # type: ignore[assignment]
+
+        def truly(self, _: Expr) -> object:
+            return self.algebra.numbers.number(2)
+
+        def value(self, _: Expr) -> Series:
+            return [self.algebra.numbers.number(int(float(c))) for c in self.coefficients]
+
+    assert evaluate([x], InField(2, False, 10, 13), 2)[0] == [2, 1]
+    with pytest.raises(Mixed):
+        evaluate([x], InField(2, False, 11), 1)
+
+
+def test_without_a_plant_one_equation_with_the_same_numbers_has_one_root() -> None:
+    """And another with others; of exponentials only what is constant all through is undefined."""
+    sample = FreeSample(Taylor(PrimeField(5)), 0, 7)
+    twice = invert(pool, pool.sub(pool.scale(2, y), rises), unknown, lambda _: None)
+    assert twice is not None
+    assert evaluate([x], sample) == evaluate([x], sample) != evaluate([twice], sample)
+    both = invert(
+        pool, pool.sub(pool.add((1, y), (1, pool.symbol("k", Kind.PARAM))), rises), unknown,
+        lambda _: None,
+    )  # fmt: skip
+    assert both is not None
+    with pytest.raises(Mixed):
+        evaluate([both], FreeSample(Exponentials(PrimeField(1), 3, 5), 0, 1))
