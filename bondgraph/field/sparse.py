@@ -182,7 +182,6 @@ class Factors:
         b = right.copy()
         for number, down in zip(self._source, self._down, strict=True):
             value = b[number]
-            b[number] = value
             if value:
                 for other, factor in down:
                     b[other] += factor * value

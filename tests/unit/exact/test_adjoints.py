@@ -177,11 +177,13 @@ def test_of_exponentials_a_condition_counts_where_the_branches_differ() -> None:
             self.algebra = algebra  # type: ignore[assignment]
 
         def value(self, symbol: Expr) -> Series:
-            return {x: (f.number(4), 1), y: (f.number(4), 1), on: (f.number(1), 0)}[symbol]  # type: ignore[return-value]
+            told = {x: (4, 1), y: (4, 1), z: (4, 0), on: (1, 0)}
+            return (f.number(told[symbol][0]), told[symbol][1])  # type: ignore[return-value]
 
     for law, expected in (
         (p.choose(on, x, y), {x}),
         (p.choose(on, p.scale(2, x), y), {x, on}),
+        (p.choose(on, x, z), {x, on}),  # of a signal and a constant
     ):
         nodes, need = plan(law, 1)
         values, _ = values_of(nodes, need, Grows())

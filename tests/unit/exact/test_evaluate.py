@@ -159,5 +159,8 @@ def test_branches_that_are_taken_are_told_with_those_inside() -> None:
     taken = Forward([root], sample).taken([root], sample.algebra)
     beside = pool.choose(pool.logic("not", _on), a, x)
     assert taken == {(outer, True), (inner, False), (beside, False)}
+    above = pool.choose(pool.compare("<", inner, a), x, y)  # b < a does not hold in the field
+    found = Forward([above], sample).taken([above], sample.algebra)
+    assert {node for node, _ in found} == {above, inner}
     straight = Forward([mul(x, a)], sample)
     assert straight.taken([mul(x, a)], sample.algebra) == set()

@@ -114,10 +114,9 @@ def test_without_a_plant_one_equation_with_the_same_numbers_has_one_root() -> No
     twice = invert(pool, pool.sub(pool.scale(2, y), rises), unknown, lambda _: None)
     assert twice is not None
     assert evaluate([x], sample) == evaluate([x], sample) != evaluate([twice], sample)
-    both = invert(
-        pool, pool.sub(pool.add((1, y), (1, pool.symbol("k", Kind.PARAM))), rises), unknown,
-        lambda _: None,
-    )  # fmt: skip
-    assert both is not None
+    k = pool.symbol("k", Kind.PARAM)
+    cubic = pool.add((1, unknown), (1, pool.mul(pool.power(k, 2), pool.power(unknown, 3))))
+    both = invert(pool, pool.sub(y, cubic), unknown, lambda _: None)
+    assert both is not None and len(both.args) > 1
     with pytest.raises(Mixed):
         evaluate([both], FreeSample(Exponentials(PrimeField(1), 3, 5), 0, 1))

@@ -256,6 +256,20 @@ model A { param R = 1; param C = 1
     assert drop[:3] == [on.value(s["R"])[0] * x for x in on.value(s["i"])[:3]]
 
 
+def test_exponentials_of_a_switched_plant_are_those_of_its_mode() -> None:
+    """Off, nothing flows; on, U = (2 s + 3) i."""
+    model = graph("""
+model A { input on : bool
+    1:sw when on { <- Se:U; -> R:R = 3; -> I:L = 2; -> Df:i }
+}""")
+    s = symbols(model)
+    plant = Plant(model)
+    for seed in range(4):
+        off, on = (plant.exponential(seed, modes={s["on"]: k}) for k in (0, 1))
+        assert off.value(s["i"])[0] == 0 != off.value(s["U"])[0]
+        assert on.value(s["U"])[0] == (2 * on.algebra.s + 3) * on.value(s["i"])[0] != 0
+
+
 def test_an_over_determined_plant_has_no_trajectory() -> None:
     from bondgraph.exact.assembly import Balance
 

@@ -34,6 +34,7 @@ def test_what_has_no_value_has_none() -> None:
     assert point.value(p.add((1, x), (1, p.power(gone, -1)))) is None
     with pytest.raises(ValueError):
         residue(Fraction(1, P))
+    assert set(point.gradient(p.mul(x, p.power(gone, -1)), lambda s: s is x)) == {x}
 
 
 def test_the_slopes_of_a_rational_expression() -> None:

@@ -302,3 +302,13 @@ def test_a_decision_falls_near_what_it_is_compared_with_or_the_numbers_of_its_la
 def test_the_same_seed_draws_the_same_numbers() -> None:
     assert _arguments("decision", scales=(2.0,)) == _arguments("decision", scales=(2.0,))
     assert all(a < b for a, b in pairwise(_drawn(F.any)))  # and no number twice
+
+
+@pytest.mark.parametrize("falls", [False, True])
+def test_a_map_of_two_lines_is_read_backwards_as_it_rises_or_falls(falls: bool) -> None:
+    """Heights 4 and 10 at x = 1 and 3, or the other way round: 7 is that of x = 2."""
+    low, high = (10, 4) if falls else (4, 10)
+    told = ((0, 1, 2), (1, low, low), (3, high, high))
+    f = Reals({"m'": tuple(tuple(map(Fraction, row)) for row in told)})
+    patch = f.table("table:m'", [arb(7), f.fraction(Fraction(3, 2))])
+    assert about(patch.f - 2) and about(patch.a * (-3 if falls else 3) - 1)

@@ -13,6 +13,7 @@ from bondgraph.field.sparse import (
     Factors,
     Row,
     Singular,
+    add_multiple,
     back_substitute,
     eliminate,
 )
@@ -83,3 +84,39 @@ def test_a_long_chain_stays_sparse() -> None:
     pivots = eliminate(KINDS[0], rows)
     assert len(pivots) == size
     assert sum(len(p.row) for p in pivots) < 8 * size
+
+
+@pytest.mark.parametrize("f", KINDS, ids=["field", "reals"])
+def test_a_multiple_of_a_row_is_added_and_what_cancels_has_no_place(f: Numbers) -> None:
+    row: Row = {0: f.number(2), 1: f.number(6), CONSTANT: f.number(1)}
+    add_multiple(f, row, f.number(-3), {1: f.number(2), 4: f.number(5), CONSTANT: f.number(1)})
+    assert row == {0: 2, 4: -15 * f.number(1), CONSTANT: -2 * f.number(1)}
+
+
+@pytest.mark.parametrize("f", KINDS, ids=["field", "reals"])
+def test_a_column_that_has_cancelled_in_a_row_is_not_looked_for_there(f: Numbers) -> None:
+    """v1 + v0 = 0 takes v0 out of the second row, before v0 = 5 is used: v2 + v3 = 7 is left."""
+    one = f.number(1)
+    rows: list[Row] = [
+        {1: one, 0: one},
+        {1: one, 0: one, 2: one, 3: one, CONSTANT: f.number(-7)},
+        {0: one, CONSTANT: f.number(-5)},
+    ]
+    pivots = eliminate(f, rows)
+    determined = {p.column for p in pivots}
+    (free,) = {0, 1, 2, 3} - determined
+    assert free in (2, 3)
+    values = {free: f.number(3)}
+    back_substitute(pivots, values)
+    assert [values[j] for j in (0, 1, 5 - free)] == [5, -5 * one, 4]
+
+
+def test_what_has_negative_columns_alone_is_kept_by_its_number_where_it_is_asked_for() -> None:
+    """v0 = -8, told twice: the difference of what is known, 1 to 2, is all that is left."""
+    f = KINDS[0]
+    one = f.number(1)
+    rows: list[Row] = [{0: one, -1: one}, {0: one, -2: one}, {0: 2 * one, -1: 2 * one}]
+    left: dict[int, Row] = {}
+    assert [p.column for p in eliminate(f, rows, left)] == [0]
+    ((number, row),) = left.items()
+    assert number in (0, 1) and row[-1] == -row[-2] and set(row) == {-1, -2}
