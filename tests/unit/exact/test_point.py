@@ -263,3 +263,62 @@ def test_what_stands_outside_counts() -> None:
 def test_an_equation_without_a_real_solution_is_refused() -> None:
     with pytest.raises(Undefined):
         _zero(p.add((1, p.power(x, 2)), (1, p.one)))
+
+
+def test_a_law_is_satisfied_by_the_one_quantity_that_is_open_in_it() -> None:
+    """y = x - 1 is tied to x: x^3 + y - 2 z = 9 with z = 0 has x = 2 alone, where y is 1."""
+    f, pool = Reals({}), Pool()
+    u, v, w = (pool.symbol(n, Kind.UNKNOWN) for n in "uvw")
+    place = {u: (0, 1), v: (1, -1), w: (2, 1)}  # v is the negative of its variable
+    law = Equation(
+        -1, {2 * ORDERS: [f.number(-2)], CONSTANT: [f.number(-9)]},
+        pool.add((1, pool.power(u, 3)), (1, v)),
+    )  # fmt: skip
+
+    def point(*rows: Row) -> Point:
+        made = Point(place, Setting({}, f, 1), Random(1))
+        for row in rows:
+            made.add({c: f.number(x) for c, x in row.items()})
+        return made
+
+    tied, known = {0: 1, STRIDE: 1, CONSTANT: -1}, {2 * STRIDE: 1}
+    solved = point(tied, known)
+    assert solved.by_itself(law)
+    assert abs(float(solved.fix({0: f.number(1)})) - 2) < 1e-12
+    assert abs(float(solved.fix({STRIDE: f.number(1)})) + 1) < 1e-12
+    assert not point(tied).by_itself(law)  # w is open beside
+    assert not point(known).by_itself(law)  # u and v are two
+    assert not point(tied, known, {0: 1}).by_itself(law)  # nothing is
+    moving = law._replace(rest=pool.add((1, pool.der(u)), (1, pool.power(u, 3))))
+    assert not point(tied, known).by_itself(moving)
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_a_derivative_of_a_law_is_linear_in_what_is_newest(known: bool) -> None:
+    """(x y)' = x y' + 3 y where x is 2 + 3 t, and x y = 6: y' is -9/2; with x' open, 3 x'."""
+    f = PrimeField(3)
+    pool = Pool()
+    u, v = (pool.symbol(n, Kind.UNKNOWN) for n in "uv")
+    point = Point({u: (0, 1), v: (1, 1)}, Setting({}, f, 2), Random(1))
+    law = Equation(-1, {CONSTANT: [f.number(-6)]}, pool.mul(u, v))
+    point.add({0: f.number(1), CONSTANT: f.number(-2)})
+    point.add({STRIDE: f.number(1), CONSTANT: f.number(-3)})
+    if known:
+        point.add({1: f.number(1), CONSTANT: f.number(-3)})
+    row = point.linearised(law, 1)
+    expected = {STRIDE + 1: 2, CONSTANT: 9} if known else {STRIDE + 1: 2, 1: 3}
+    assert row == {c: f.number(x) for c, x in expected.items()}
+
+
+def test_a_value_goes_through_the_branch_that_is_taken_and_waits_for_an_open_condition() -> None:
+    """if(a < 0, x, exp x) = 1 at a = 2: x is 0. While a is open nothing is said."""
+    f, pool = Reals({}), Pool()
+    u, v = (pool.symbol(n, Kind.UNKNOWN) for n in "uv")
+    law = pool.choose(pool.compare("<", u, pool.zero), v, pool.fn("exp", v))
+    place = {u: (0, 1), v: (1, 1)}
+    point = Point(place, Setting({}, f, 1), Random(1))
+    equation = Equation(-1, {CONSTANT: [f.number(-1)]}, law)
+    assert point.satisfied(0, equation) is not None
+    point.add({0: f.number(1), CONSTANT: f.number(-2)})
+    assert point.satisfied(0, equation) is None
+    assert abs(float(point.fix({STRIDE: f.number(1)}))) < 1e-12
