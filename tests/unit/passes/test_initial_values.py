@@ -84,3 +84,31 @@ def test_a_source_that_is_not_known_yet_contradicts_nothing() -> None:
         "i -> Df:y",
     )  # fmt: skip
     assert told == []
+
+
+@pytest.mark.parametrize(
+    ("law", "count"),
+    [
+        ("e = z*f", 1),  # no resistance: the voltages of 2 V and 1.5 V are one
+        ("e = (1 - one)*f*f", 0),  # not linear: an unknown of its own
+        ("e = one*f", 0),  # what flows takes up the difference
+        ("e = f/z", 0),  # no number says what that is
+        ("e = z*f + 0.5*one", 0),  # 0.5 V between them
+        ("e = z*f + 0.5*one^-3", 0),
+        ("e = z*f + 0.25/one^2", 1),
+        ("e = z*f - 0.5*one", 1),
+    ],
+)
+def test_a_law_between_two_capacitors_says_how_far_they_are_apart(law: str, count: int) -> None:
+    """Looked at because a third one shares the state of the first, and agrees with it."""
+    told = _told(
+        "param z = 0; param one = 1",
+        "Sf:I -> 0:left",
+        "left -> C:C1(q0 = 0.2 C) = 0.1 F",
+        "left -> C:C3(q0 = 0.4 C) = 0.2 F",
+        "left -> 1:w -> 0:right",
+        f"w -> R:r {{ {law} }}",
+        "right -> C:C2(q0 = 0.3 C) = 0.2 F",
+        "right -> De:y",
+    )
+    assert len(told) == count
