@@ -89,6 +89,7 @@ def passed_on(engine: Engine, names: Sequence[str], sample: Array, sizes: Array)
     other one moves such a residual in that sample, over by how much the signal itself does. Near a
     `sample` of all signals, with the `sizes` of those that have these names.
     """
+    sizes = np.where(np.isfinite(sizes) & (sizes > 0.0), sizes, 1.0)  # of what stands still as well
     known = [Hypothesis(name, "offset", "", float(size), False)
              for name, size in zip(names, sizes, strict=True)]  # fmt: skip
     rests = engine.configured(bounds=False)

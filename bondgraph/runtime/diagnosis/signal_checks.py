@@ -99,7 +99,7 @@ class SignalChecks:
     is looked for there, until enough such answers are known: then one twice as far out as any of
     them is a spike, and behind a step that is larger than ever one that is as much farther out than
     the signal ever was. Of `encoders`, by their columns, is told which stands still while others go
-    on.
+    on. `passed_on` says what relations make of a sample (see `input_moves.passed_on`).
     """
 
     def __init__(

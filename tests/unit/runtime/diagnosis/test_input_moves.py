@@ -42,12 +42,14 @@ def test_what_passes_in_a_sample_is_what_relations_have_of_both() -> None:
                                          "-> De:v }\n    1:shaft")  # fmt: skip
     engine = _compiled(text).engine()
     names = [k.path for k in engine.signals]
-    found = passed_on(engine, names, np.full(len(names), 2.0), np.ones(len(names)))
+    sizes = np.where([name == "i" for name in names], 0.0, 1.0)  # it stands still
+    found = passed_on(engine, names, np.full(len(names), 2.0), sizes)
     gain = {(y, u): found[names.index(y), names.index(u)] for y in "wv" for u in "ui"}
     assert gain["v", "i"] == pytest.approx(3.0, rel=1e-6)
     # kf/J times a sample for what is held; less for what goes in straight lines between samples
     assert 0.3 * 115.0 / 1.2 * _STEP < gain["w", "u"] < 115.0 / 1.2 * _STEP
     assert gain["w", "i"] == gain["v", "u"] == math.inf
+    assert np.isinf(passed_on(engine, names, np.full(len(names), math.nan), sizes)).all()
 
 
 def _governed(spikes: list[int]) -> Array:
