@@ -19,7 +19,7 @@ from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.field.numbers import Number, Numbers
 from bondgraph.field.series import Series
 from bondgraph.field.sparse import CONSTANT, Row
-from bondgraph.ir.expr import Expr, Op, Symbol, topological
+from bondgraph.ir.expr import Expr, Op, Symbol, symbols, topological
 
 
 class Equation(NamedTuple):
@@ -240,8 +240,9 @@ def written(
     An input that a law uses in a product or a function is drawn here and is a constant of the
     setting from then on: a law must not be satisfied by the one value of an input that allows it.
     It moves unless the plant is in steady operation.
-    One behind a function with sides stays open at every second point, so that the function's
-    argument can be drawn on any side: a controller whose set point is at random is at its limit.
+    One behind a function with sides, or in a condition, stays open at every second point, so that
+    the function's argument can be drawn on any side: a controller whose set point is at random is
+    at its limit.
     """
     equations = Writer(plant, setting).all(readings)
     given = _modulating(equations, plant, sided=random.random() < 0.5)
@@ -258,17 +259,22 @@ def written(
 def _modulating(equations: list[Equation], plant: Assembly, sided: bool) -> list[Expr]:
     """The inputs that laws use in products and functions; those with sides only if asked."""
     free = frozenset((*plant.free, *plant.unknown))
+    inputs = frozenset(s for s, (variable, _) in plant.place.items() if variable in free)
+
+    def sides(node: Expr) -> bool:
+        open_ = node.op is Op.IF and not inputs.isdisjoint(symbols(node.args[0]))
+        return has_sides(node) or open_
+
     out: dict[Expr, None] = {}
     for equation in equations:
         if equation.rest is None:
             continue
         rest = equation.rest
-        for node in topological([rest], stop=None if sided else has_sides):
-            if not sided and has_sides(node):
+        for node in topological([rest], stop=None if sided else sides):
+            if not sided and sides(node):
                 continue
             if node is not rest or node.op is not Op.ADD:
-                inside = [a for a in node.args if a in plant.place]
-                out.update((a, None) for a in inside if plant.place[a][0] in free)
+                out.update((a, None) for a in node.args if a in inputs)
     return list(out)
 
 

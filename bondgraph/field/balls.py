@@ -310,7 +310,7 @@ def zero_between(f: Callable[[Number], Number], low: Number, high: Number) -> Nu
     size = 1 + abs(at_low) + abs(at_high)
     side = 0  # of the last new end: one that stays twice counts half
     for step in range(_STEPS + _LINES):
-        if not at_low:
+        if at_low == 0:
             return low
         middle = ((low + high) / 2).mid()
         fall = at_high - at_low
@@ -358,15 +358,15 @@ def zero_of(f: Callable[[Number], Number], start: Number, random: Random | None 
             value = f(at)
         except Undefined:
             continue
-        if value != 0 or not value:
+        if value != 0 or value == 0:  # not where a ball holds zero among others
             known.append((at, value))
     known.sort(key=lambda item: float(item[0]))
     found = [
         (a, b)
         for (a, left), (b, right) in pairwise(known)
-        if not left or (right and (left > 0) != (right > 0))
+        if left == 0 or (right != 0 and (left > 0) != (right > 0))
     ]
-    if known and not known[-1][1]:
+    if known and known[-1][1] == 0:
         found.append((known[-1][0], known[-1][0]))
     if random is not None:
         random.shuffle(found)

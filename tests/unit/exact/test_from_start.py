@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
+import bondgraph
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.plant import Plant
 from tests.unit.exact.models import graph
@@ -100,3 +102,22 @@ def test_all_positions_of_switches_are_tried_that_a_state_may_need_to_leave() ->
         text = text.replace("input u", f"input u; input s{at} : bool", 1)
     text = re.sub(r"s(\d)\*", r"if(s\1, 1, 0)*", text)
     assert _held(text) == {"h1.q0"}
+
+
+@pytest.mark.parametrize("law", ["if(abs(u) > 40, u, 0)", "if(u > 40, u, 0)", "if(u < -40, u, 0)"])
+def test_a_state_leaves_where_an_input_is_beyond_a_limit_wherever_that_is(law: str) -> None:
+    """Numbers that are drawn are of about one: what is compared has to be drawn for a limit."""
+    text = f"""bg 1
+model M {{
+    param R = 2; param k = 3; input u
+    0:n0 {{ -> C:h0(q0 = 0) {{ e = k*q }} }}
+    Sf:s0 = {law}
+    s0 -> n0
+    Se:u -> 1:m {{ -> R:R; -> Df:i }}
+    sensor y = m.f + n0.e
+}}
+"""
+    for seed in range(8):
+        found = bondgraph.compile(Path("m.bg"), text=text, seed=seed).signatures
+        seen = [{f for f in found.faults if r in found.seen_by(f)} for r in found.residuals]
+        assert sorted(seen, key=sorted) == [{"R", "i", "u"}, {"i", "k", "u", "y"}]

@@ -109,6 +109,14 @@ def test_a_zero_far_from_a_start_is_found_as_one_very_near() -> None:
         assert abs(float(found) / zero - 1) < 1e-12
 
 
+def test_a_zero_without_a_change_of_sign_is_found_where_it_is_met() -> None:
+    """Zero and one are looked at wherever a search begins."""
+    assert zero_of(lambda z: z * z, arb(0)) == 0
+    assert zero_of(abs, arb(0)) == 0
+    assert zero_of(lambda z: (z - 1) ** 2, arb(0)) == 1
+    assert zero_between(lambda z: z * (z - 3), arb(0), arb(1)) == 0
+
+
 def test_with_random_numbers_any_zero_within_reach_is_taken() -> None:
     def cubic(z: Number) -> Number:
         return (z + 2) * (z - 1) * (z - 30)
