@@ -167,9 +167,9 @@ def grouped(
 def dynamic(graph: BondGraph, residuals: ResidualSet) -> dict[str, tuple[float, ...]]:
     """The parameters that relations multiply with a derivative or differentiate.
 
-    And with how many derivatives in front each may become another: with none, what is measured goes
-    on; with one, it jumps as where a storage keeps its charge, or what resists stands behind one;
-    with all that the code has where relations have no more than one, or two in front of it.
+    And how many derivatives may stand in front of each when it becomes another. With none what is
+    measured goes on; with one it jumps, as of a storage that keeps its charge, and as of what
+    resists behind a derivative. `ALL` is one where there is no more, and stands for two and more.
     """
     names = {v.symbol: v.name for v in graph.values if not v.delivery}
     degrees: dict[Expr, int] = {}

@@ -13,7 +13,7 @@ import bondgraph
 from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.history import History
-from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
+from bondgraph.runtime.diagnosis.hypotheses import ALL, Bank, hypotheses
 from bondgraph.runtime.diagnosis.isolation import Explained
 from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.rows import Row
@@ -152,7 +152,7 @@ def test_a_storage_may_become_another_one_while_what_is_measured_goes_on() -> No
     # from t0 on J w' is larger by dJ w', through a filter of equal stages, and no step of dJ w is
     brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
     engine, facts = brake.engine(), brake.diagnosis_model
-    assert set(facts.dynamic) == {"J"}
+    assert facts.dynamic == {"J": (0, ALL)}
     known = [h for h in hypotheses(engine, facts.faults, facts.units, {}) if h.fault == "J"]
     t = np.arange(4000) / _RATE
     columns = {"T": 0.0 * t, "w": 30.0 + np.sin(2.0 * t)}
