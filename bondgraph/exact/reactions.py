@@ -77,6 +77,20 @@ class Reactions:
             found = _union(found, here) if point else here
         return found
 
+    def agree_at_free_signals(self, expr: Expr, other: Expr) -> bool:
+        """Whether two relations have the same value where their signals are independent."""
+        apart = self.plant.graph.pool.sub(expr, other)
+
+        def moves(number: int) -> bool:
+            sample = FreeSample.of(apart, number)
+            return bool(sample.algebra.moves(evaluate([apart], sample)[0]))
+
+        try:
+            points = range(_points([apart], None))
+            return not any(self.draw(moves, 1000 * self.seed + point) for point in points)
+        except ExactUnavailable:
+            return expr is other
+
     def sensed(
         self,
         exprs: list[Expr],

@@ -97,8 +97,7 @@ def _contradictory(system: EquationSystem, eliminate: _Eliminate) -> bool:
     They may say the same thing twice, as of the flow of a junction that is off and has no other
     bond than to a junction with nothing on it.
     """
-    found = eliminate(_blind(system))
-    return bool(found.closings) or any(m.explained for m in found.missing)
+    return bool(eliminate(_blind(system)).closings)
 
 
 class _Join:

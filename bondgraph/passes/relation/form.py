@@ -67,7 +67,7 @@ class _Former:
             alive = any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items())
             if not alive or not self._says_something(closing.expr):
                 continue
-            own = pruned(self.pool, closing, free)
+            own = self._pruned(closing, free)
             expr = upright(self.pool, cleared(self.pool, own.expr, self._denominators(own)))
             if expr not in met:  # two equal gyrators
                 met.add(expr)
@@ -80,6 +80,31 @@ class _Former:
                     )
                 )  # fmt: skip
         return tuple(found)
+
+    def _pruned(self, closing: Closing, free: Sensitivity) -> Closing:
+        """The relation without the parts that cancel whatever the signals are.
+
+        A part may cancel when the relation's derivative with respect to it vanishes; it does where
+        the relation keeps its value `without` it, which (n - x)^2 does not, where n is x at all
+        times. (What decides between branches counts as influence.)
+        What the equation of an iteration holds stays: its root is then still the variable it is of.
+        """
+        nodes = topological([closing.expr])
+        kept = set(topological([a for n in nodes if n.op is Op.ROOT for a in n.args]))
+        dead = [n for n in nodes if n in free.dead and n not in kept]
+        if not self._cancel(closing.expr, dead):
+            told, dead = dead, []
+            for node in told:
+                if self._cancel(closing.expr, [*dead, node]):
+                    dead.append(node)
+        closed = [s.closed for s in closing.steps]
+        expr, *values = without(self.pool, closing.expr, dead, closed)
+        steps = [s._replace(closed=v) for s, v in zip(closing.steps, values, strict=True)]
+        return closing._replace(expr=expr, steps=tuple(steps))
+
+    def _cancel(self, expr: Expr, parts: list[Expr]) -> bool:
+        """Whether the relation has the same value without the parts, at free signals."""
+        return self.reactions.agree_at_free_signals(expr, without(self.pool, expr, parts)[0])
 
     def _denominators(self, closing: Closing) -> list[Expr]:
         """What a relation is multiplied with, because it may be zero while the machine runs."""
@@ -106,18 +131,3 @@ def _by_name(orders: Mapping[Expr, int]) -> dict[str, int]:
         name = symbol.symbol.name
         found[name] = max(found.get(name, order), order)
     return found
-
-
-def pruned(pool: Pool, closing: Closing, free: Sensitivity) -> Closing:
-    """The relation without the parts that cancel whatever the signals are.
-
-    A part cancels when the relation's derivative with respect to it vanishes; the relation keeps
-    its value `without` it. (What decides between branches counts as influence.)
-    What the equation of an iteration holds stays: its root is then still the variable it is of.
-    """
-    nodes = topological([closing.expr])
-    kept = set(topological([a for n in nodes if n.op is Op.ROOT for a in n.args]))
-    dead = [n for n in nodes if n in free.dead and n not in kept]
-    expr, *values = without(pool, closing.expr, dead, [s.closed for s in closing.steps])
-    steps = [s._replace(closed=v) for s, v in zip(closing.steps, values, strict=True)]
-    return closing._replace(expr=expr, steps=tuple(steps))
