@@ -278,6 +278,7 @@ class Diagnosis:
             if self._judge.said and (one.kind == "spike" or one.signal not in suspects):
                 told = self._judge.beside(told)
             out.append(told)
+            self._judge.by_itself()
             before.add(one.signal)
         if before and not self._checks.active and not self._detection.alarmed:
             message = f"{listed(sorted(before), 'and')} as while the machine was well"
@@ -444,6 +445,7 @@ class Diagnosis:
             if told:
                 which = tuple(Candidate(s, None, "", 1.0 / len(told)) for s in told)
                 message += f", by {listed(told, 'or')}"
+                self._judge.by_itself()
                 event = "update" if self._checks.active else "fault"
                 group = tuple(told) if len(told) == 1 else ()
                 out.append(Verdict(event, time, since, levels, group, which, message=message))
@@ -485,7 +487,8 @@ class Diagnosis:
         over = self._detection.over(own, self._limits, self._judge.moves)
         self._outlasted = over and bool(self._checks.active)
         known = self._checkpoints.returned(row, self._checkpoint)
-        what = "back to what a healthy machine does; what was said stays said"
+        what = "back to what a healthy machine does; what was "
+        what += "wrong is not known" if self._judge.silent else "said stays said"
         if known is not None:
             self._go_back(known)
             what = f"as they were at {moment(known.time)}, before a drift that was followed"

@@ -79,6 +79,11 @@ class Judge:
         return self.latched is not None and self.latched.said is not None
 
     @property
+    def silent(self) -> bool:
+        """Whether nothing was told of what the alarm is about."""
+        return self.latched is not None and not (self.said or self.latched.itself)
+
+    @property
     def best(self) -> str | None:
         """The fault that explains all, if there is one."""
         return None if self._best is None else self._best.fault
@@ -129,6 +134,11 @@ class Judge:
     def latch(self, since: float) -> None:
         """There is an alarm, for something that began at this time."""
         self.latched, self._wanted, self._verdict = Latched(since), None, None
+
+    def by_itself(self) -> None:
+        """It was told that a signal is unusual by itself."""
+        if self.latched is not None:
+            self.latched = self.latched._replace(itself=True)
 
     def renew(self) -> None:
         """There is more to go by than before: compare anew, and do not wait to tell it."""

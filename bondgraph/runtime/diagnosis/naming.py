@@ -103,30 +103,34 @@ def _odds(probability: float) -> float:
 
 
 class Latched(NamedTuple):
-    """An alarm: `since` when (s), what was `said` of it last, and how many `times` so far."""
+    """An alarm: `since` when (s), what was `said` of it last, and how many `times` so far.
+
+    `itself` says whether it was put down to a signal that is unusual by itself.
+    """
 
     since: float
     said: Judgement | None = None
     times: int = 0
+    itself: bool = False
 
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
         said = self.said and [list(self.said.group), self.said.fault, self.times, self.said.pair,
                               self.said.size, self.said.unit, self.said.off,
                               self.said.probability, self.said.kind]  # fmt: skip
-        return {"since": self.since, "said": said}
+        return {"since": self.since, "said": said, "itself": self.itself}
 
     @classmethod
     def resumed(cls, state: Mapping[str, Any]) -> Latched:
         """From a state; raises KeyError, TypeError or ValueError for one of another kind.
 
-        >>> latched = Latched(3.5, Judgement(("a", "b"), "a"), 2)
+        >>> latched = Latched(3.5, Judgement(("a", "b"), "a"), 2, itself=True)
         >>> Latched.resumed(latched.state()) == latched
         True
         """
-        since = float(state["since"])
+        since, itself = float(state["since"]), bool(state.get("itself", True))  # before 2026-12
         if state["said"] is None:
-            return cls(since)
+            return cls(since, itself=itself)
         group, fault, times, pair, size, *more = state["said"]
         size = None if size is None else float(size)
         unit, off = more[:2] or ("", 0.0)  # none before 2026-11-28
@@ -135,7 +139,7 @@ class Latched(NamedTuple):
         said = Judgement(
             tuple(group), fault, tuple(pair), size, str(unit), float(off), chance, kind
         )
-        return cls(since, said, int(times))
+        return cls(since, said, int(times), itself)
 
 
 def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:

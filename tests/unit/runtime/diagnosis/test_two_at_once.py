@@ -226,6 +226,22 @@ def test_two_sensors_that_are_noisy_at_once_are_both_named() -> None:
     assert then.message.endswith(", beside y1")
 
 
+def test_an_alarm_of_which_nothing_was_said_ends_so() -> None:
+    """A reading that is off for two seconds is over before five rows say what it is."""
+    ends = []
+    for lasts in (0.3, 2.0):
+
+        def off(t: np.ndarray, samples: np.ndarray, lasts: float = lasts) -> None:
+            samples[(t >= 60.0) & (t < 60.0 + lasts), 3] += 0.3
+
+        said = _watched(5, {}, read=off)
+        (over,) = [v.message for v in said if v.event == "cleared"]
+        named = any(v.candidates for v in said)
+        assert over.endswith("said stays said" if named else "what was wrong is not known")
+        ends.append(named)
+    assert ends == [True, False]
+
+
 @pytest.mark.parametrize("column", [1, 3])
 def test_a_spike_takes_no_name_from_a_fault_that_lasts(column: int) -> None:
     """What was told of the fault is in the last verdict too; also of one that was resumed."""
