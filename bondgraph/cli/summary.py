@@ -157,9 +157,8 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
         if info.name in anew:
             modes = " or ".join(anew[info.name])
             wait = info.wait(program.bandwidth / program.rate) / program.bandwidth
-            notes.append(
-                [f"  {info.name}  starts anew where {modes} changes, valid {wait:.2g} s later"]
-            )
+            what = f"  {info.name}  starts anew where {modes} changes: what it differentiates"
+            notes.append([f"{what} may jump there; valid {wait:.2g} s later"])
         if info.unavailable:
             notes.append([f"  {info.name}  is never valid: {info.unavailable}"])
         if info.unwritten:
