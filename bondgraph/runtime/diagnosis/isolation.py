@@ -191,14 +191,19 @@ class Evidence:
         """A hypothesis without a size: the machine is well if residuals are told what it says.
 
         What was seen as it was told and as it should have been told, each with the same parameters
-        off within their tolerances.
+        off within their tolerances. Of both the model is off by a share of what is left, which has
+        a spread of its own. That counts for nothing where what acts stays: a reading that jumps
+        leaves nothing as well.
         """
         _finite(*other[:3])
         rest = len(self._known)
-        before, after = self._told, self._whole(_Seen(other, self._prior))
+        seen = _Seen(other, self._prior)
+        before, after = self._told, self._whole(seen)
         misfit, left = (float(np.square(root[rest:, rest]).sum()) for root in (before, after))
         size, others = (np.log(np.abs(np.diagonal(r)[:rest])).sum() for r in (before, after))
         evidence = 0.5 * (misfit - left) + float(size - others)
+        if not _stays(hypothesis):
+            evidence += seen.density - self._seen.density
         share = 1.0 - left / misfit if misfit > 0 else 0.0
         return Explained(hypothesis.fault, evidence, hypothesis, 1.0, 0.0, left, share=share)
 
@@ -248,7 +253,8 @@ class _Seen:
     """What was seen and what would move it, whitened: (chunks, moments, columns).
 
     Columns of the `table` are the parameters with a tolerance, in deviations, the errors of
-    residuals that stay, and the residuals. Chunks are full, but the first.
+    residuals that stay, and the residuals. Chunks are full, but the first. `density` is what
+    whitening adds to the logarithm of their density, which errors of other sizes do otherwise.
     """
 
     def __init__(self, rows: Rows, prior: Array) -> None:
@@ -266,6 +272,8 @@ class _Seen:
             kept = np.square(np.diagonal(self._unroot, axis1=2, axis2=3)).transpose(0, 2, 1)
             share = noise * kept.reshape(noise.shape)
             self._kin = rows.shared.unroots(share)
+        roots = [self._unroot.reshape(-1, *self._unroot.shape[-2:]), *[one for _, one in self._kin]]
+        self.density = float(sum(np.log(np.diagonal(r, axis1=1, axis2=2)).sum() for r in roots))
         table = [rows.rest.transpose(0, 2, 1) * prior, ever, rows.value[:, :, None]]
         self.table = self._white(np.concatenate(table, axis=2))
 
@@ -487,15 +495,16 @@ def _either(ways: Sequence[Explained]) -> Explained:
     What stays where it was has no size, so that behind a single step of a command it would be more
     probable than anything with one: it is taken for that much rarer, and has to show.
     """
-    told = [one._replace(evidence=one.evidence - RARER * _stays(one)) for one in ways]
+    told = [one._replace(evidence=one.evidence - RARER * _stays(one.hypothesis))
+            for one in ways]
     top = max(told, key=lambda one: one.evidence)
     weights = sum(math.exp(max(one.evidence - top.evidence, -700.0)) for one in told)
-    others = sum(not _stays(one) for one in ways)
+    others = sum(not _stays(one.hypothesis) for one in ways)
     return top._replace(evidence=top.evidence + math.log(weights / max(others, 1)))
 
 
-def _stays(one: Explained) -> bool:
-    return one.hypothesis.held is not None and one.hypothesis.held.stays
+def _stays(hypothesis: Hypothesis) -> bool:
+    return hypothesis.held is not None and hypothesis.held.stays
 
 
 def _scaled(left: Array, last: Array) -> tuple[Array, ...]:

@@ -14,7 +14,7 @@ from scipy.stats import multivariate_normal
 
 from bondgraph.runtime.diagnosis.healthy import as_it_is
 from bondgraph.runtime.diagnosis.history import History
-from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.isolation import (
     Case,
     Evidence,
@@ -134,6 +134,42 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
         ratio = np.logaddexp.reduce(densities) - math.log(len(densities)) - _density(value, healthy)
         evidence = pair.evidence if fault == "both" else found[fault].evidence
         assert evidence == pytest.approx(ratio, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize(("after", "residuals"), [(10, 2), (4, 1), (70, 2)])
+def test_what_has_no_size_is_the_ratio_of_two_densities(after: int, residuals: int) -> None:
+    """Of the machine as it was told to be, and as it is where a switch is stuck.
+
+    The model is off by a share of what is left of each, so that these have spreads of their own.
+    """
+    draw = np.random.default_rng(4)
+    before, parameters = 5, 2
+    spread = np.array([0.5, 2.0])
+    stuck = Hypothesis("on", "stuck", "", 1.0, True, Stuck("on", 1.0))
+    rest, other_rest = draw.normal(size=(2, before + after, parameters, residuals))
+    other_rest[:before] = rest[:before]
+    value = draw.normal(size=(before + after, residuals)) * 2.0
+    value[before:] += 30.0
+    left = draw.normal(size=(after, residuals))
+    weight = draw.uniform(0.5, 2.0, size=(before + after, residuals))
+    history = History(spread)
+    for k in range(before):
+        history.add(value[k], weight[k], rest[k], 1.0)
+    slopes = np.zeros((after, 1, residuals))
+    told = Rows(value[before:], weight[before:], rest[before:], slopes)
+    other = Rows(left, weight[before:], other_rest[before:], slopes)
+    (found,) = explain(told, [stuck], history, {0: other})
+
+    def density(seen: np.ndarray, moved: np.ndarray) -> float:
+        shared = _flat(moved)
+        covariance = np.diag(1.0 / weight.ravel()) + shared @ np.diag(spread**2) @ shared.T
+        behind = slice(before * residuals, None)
+        covariance[behind, behind] += _off(seen)
+        return _density(np.concatenate([value[:before], seen]), covariance)
+
+    ratio = density(left, other_rest) - density(value[before:], rest)
+    assert ratio > 10.0
+    assert found.evidence == pytest.approx(ratio, rel=1e-9)
 
 
 def _equations(
