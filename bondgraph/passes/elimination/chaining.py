@@ -20,7 +20,7 @@ from bondgraph.algebra.conjugates import two_valued
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.solve import ITERATED, Solution, solve
 from bondgraph.ir.equation_system import Equation, EquationSystem
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, symbols, variables
+from bondgraph.ir.expr import CONSTANTS, VARIABLES, Expr, Kind, Op, symbols, variables
 from bondgraph.ir.nodes import has, occurs
 from bondgraph.ir.residuals import Closing, How, Missing, ReducedSystem, Step
 from bondgraph.passes.elimination.colour import colours
@@ -51,9 +51,14 @@ _LARGE = 30
 
 
 class _Offer(NamedTuple):
-    """An equation that could give a variable: the entries of the heap."""
+    """An equation that could give a variable: the entries of the heap.
+
+    Of those that cost the same, the one that `rests` on fewest parameters and signals is best: a
+    sensor of the variable tells it without the errors of all that another one takes to compute it.
+    """
 
     cost: Cost
+    rests: int
     equation_colour: int
     variable_colour: int
     equation: int
@@ -218,8 +223,9 @@ class Chain:
         cost = after(others, late, solution.hard, derived, self.free)
         if equation.kind == "sensor" and equation.name in self.delayed:
             cost = cost._replace(depth=cost.depth + 1)  # what is known at once is taken before
+        rests = sum(s.symbol.kind not in VARIABLES for s in symbols(solution.value))
         offer = _Offer(
-            cost, self.known.colour[row], self.known.variable_colour[variable], row,
+            cost, rests, self.known.colour[row], self.known.variable_colour[variable], row,
             self.known.position[variable], solution, how,
         )  # fmt: skip
         heapq.heappush(self.later if late else self.heap, offer)

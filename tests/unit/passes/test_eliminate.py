@@ -255,6 +255,45 @@ def test_a_limited_command_that_is_logged_is_not_turned_round() -> None:
     assert not c.residuals.missing
 
 
+@pytest.mark.parametrize(
+    ("gauge", "flow", "pressure"),
+    [
+        ("over", "kv*gauge", "pa + gauge"),
+        ("2*over", "kv*((2*pa + gauge)/2 - pa)", "pa + gauge/2"),
+    ],
+)
+def test_a_function_is_measured_by_a_multiple_of_it_beside_a_constant(
+    gauge: str, flow: str, pressure: str
+) -> None:
+    """What boils off is told by the pressure, and not by the temperature that follows from it.
+
+    The pressure gives that, T = 1/(1/T0 - log(p/p0)/L).
+    """
+    c = compiled(
+        f"""model M {{ param p0 = 2; param pa = 1; param kv = 0.3; param C = 4; input q
+        const T0 = 3; const L = 6
+        let over = p0*exp(L*(1/T0 - 1/heat.e)) - pa
+        0:heat {{ <- Sf:q; -> C:C; -> Sf:steam = kv*over }}
+        sensor gauge = {gauge} }}"""
+    )
+    (relation,) = c.residuals
+    assert relation.text == f"q - {flow} - C*D(1/(1/T0 - log(({pressure})/p0)/L))"
+
+
+def test_a_sensor_tells_a_variable_before_a_law_of_many_parameters_does() -> None:
+    """Either gives the temperature in one step; the law does with the errors of three parameters.
+
+    So it is what is left to compare with the other sensor.
+    """
+    c = compiled(
+        """model M { param E = 1.5; param k = 1e-3; param r = 2; param C = 4; param G = 5; input I
+        0:heat { <- Sf:losses = I*(E - k*heat.e); -> C:C; -> R:R { f = G*e }; -> De:T }
+        sensor V = E - k*heat.e + r*I }"""
+    )
+    texts = {relation.text for relation in c.residuals}
+    assert texts == {"I*(E - k*T) - G*T - C*D(T)", "V + k*T - E - r*I"}
+
+
 def test_a_measured_function_stays_unsolved_where_it_is_made_of_more() -> None:
     """Anti-windup by back-calculation: what was limited is used beside the limited value."""
     c = compiled(
