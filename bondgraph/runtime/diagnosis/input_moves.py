@@ -85,20 +85,32 @@ class InputMoves:
 def passed_on(engine: Engine, names: Sequence[str], sample: Array, sizes: Array) -> Array:
     """How far a signal goes at most, in one sample, for a unit that another one goes in it.
 
-    By the relations that have both, (signals, signals), infinite where none has: by how much the
-    other one moves such a residual in that sample, over by how much the signal itself does. Near a
-    `sample` of all signals, with the `sizes` of those that have these names.
+    Where relations tell all sensors, these do what keeps all relations at zero: (signals, signals),
+    of sensors by inputs. Elsewhere each alone may be what does, in the relations that have both: by
+    how much the other one moves such a residual in that sample, over by how much the signal itself
+    does; infinite where none has both. Near a `sample` of all signals, with the `sizes` of those
+    that have these names.
     """
     sizes = np.where(np.isfinite(sizes) & (sizes > 0.0), sizes, 1.0)  # of what stands still as well
     known = [Hypothesis(name, "offset", "", float(size), False)
              for name, size in zip(names, sizes, strict=True)]  # fmt: skip
     rests = engine.configured(bounds=False)
     rests.run(np.repeat(sample[None], math.ceil(rests.warm_up / rests.sample_time) + 1, axis=0))
-    moved = np.abs(Bank(rests, known, {}, sample).run(sample[None])[0])
-    both = (moved[:, None] > 0.0) & (moved[None] > 0.0)
+    moved = Bank(rests, known, {}, sample).run(sample[None])[0]
+    size = np.abs(moved)
+    both = (size[:, None] > 0.0) & (size[None] > 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.where(both, moved[None] / moved[:, None], 0.0).max(axis=2, initial=0.0)
-    return np.where(both.any(axis=2), ratio, math.inf)
+        ratio = np.where(both, size[None] / size[:, None], 0.0).max(axis=2, initial=0.0)
+    found = np.where(both.any(axis=2), ratio, math.inf)
+    kinds = {k.path: k.kind for k in engine.signals}
+    sensors = [at for at, name in enumerate(names) if kinds[name] == "sensor"]
+    inputs = [at for at, name in enumerate(names) if kinds[name] == "input"]
+    scaled = moved * sizes[:, None] / np.maximum((size * sizes[:, None]).max(axis=0), 1e-300)
+    told = len(sensors) > 0 and np.isfinite(scaled).all()
+    if told and np.linalg.matrix_rank(scaled[sensors]) == len(sensors):
+        made = np.abs(scaled[inputs] @ np.linalg.pinv(scaled[sensors])).T  # (sensors, inputs)
+        found[np.ix_(sensors, inputs)] = made * sizes[sensors, None] / sizes[inputs]
+    return found
 
 
 def _most(bends: Array) -> Array:

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.following import Following
 from bondgraph.runtime.diagnosis.input_moves import InputMoves
 from bondgraph.runtime.diagnosis.rare_steps import answered, answers, rare_steps, sizes
 from bondgraph.runtime.diagnosis.rows import PAUSE, away
@@ -43,7 +44,6 @@ _WAIT = 3  # rows that have to be usual behind one whose noise is: a burst begin
 _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
 _SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
-_FOLLOWS = 0.5  # correlation from which on a command follows a sensor
 
 
 class Unusual(NamedTuple):
@@ -111,7 +111,7 @@ class SignalChecks:
         self._pause = pause
         self._encoders = StandingEncoders(encoders)
         self._names, self._at, self._step = tuple(names), list(at), sample_time
-        self._inputs, self._passed_on = inputs, passed_on
+        self._inputs, self._follows = inputs, Following(len(self._names), passed_on)
         self._drive = np.array([name in inputs for name in self._names], dtype=np.bool_)
         self._steer = [*np.array(self._at, dtype=int)[self._drive].tolist(), *modes]
         count = len(self._names)
@@ -141,8 +141,7 @@ class SignalChecks:
         self._steered = np.empty((0, len(self._steer)))  # commands and modes of these samples
         self._run = np.zeros(len(self._names))
         self._tail = np.empty((0, len(self._names)))
-        self._error = np.zeros((1, len(self._names)))  # of the last row, beside its neighbours
-        self._bends = np.zeros((1, len(self._names)))  # the same beside the middle of the nearest
+        self._bends = np.zeros((1, len(self._names)))  # beside the middle of the nearest samples
         self._waiting: deque[Array] = deque()  # as `_rough`, of the last healthy rows
         self._path = np.full((_LEAST, len(self._names)), math.nan)  # before each stood still last
         self._before = np.zeros((_AROUND, len(self._names)))  # how far out the last samples were
@@ -254,24 +253,9 @@ class SignalChecks:
 
     def _causes(self, driven: Collection[str], sensors: Collection[str]) -> set[str]:
         """The sensors that all inputs which move as never before follow, if each of these does."""
-        led = [{n for n in sensors if self._leads(n, own)} for own in driven]
+        place = self._names.index
+        led = [{n for n in sensors if self._follows.leads(place(n), place(own))} for own in driven]
         return set.union(*led) if led and all(led) else set()
-
-    def _leads(self, sensor: str, command: str) -> bool:
-        """Whether a command does what a sensor has shown some samples before: a controller reads
-        it. What a sensor shows of a machine that is driven comes with the command, or behind it.
-        """
-        return self._later(sensor, command) > 0
-
-    def _later(self, sensor: str, command: str) -> float:
-        """Samples after which a command does what a sensor has shown, NaN if it does not."""
-        one, other = (self._error[:, self._names.index(name)] for name in (sensor, command))
-        size = math.sqrt(float(one @ one) * float(other @ other))
-        along = [abs(float(one[: len(one) - max(lag, 0)][max(-lag, 0) :]
-                           @ other[max(lag, 0) :][: len(other) - max(-lag, 0)]))
-                 for lag in range(-_SIDE, _SIDE + 1)]  # fmt: skip
-        best = int(np.argmax(along))
-        return best - _SIDE if along[best] > _FOLLOWS * size else math.nan
 
     def _noisy(self) -> set[str]:
         """The signals whose noise was told and goes on, whatever a controller makes of it."""
@@ -298,6 +282,15 @@ class SignalChecks:
             least[k] = 0.0 if often[k] >= _QUIET else least[k]
         return least
 
+    def _beyond(self) -> Array:
+        """How far out a spike is: the fewer samples a signal is known by, the farther.
+
+        A road is rougher in one second than in the last. And where no sample has been alone yet,
+        one may be as far out as the signal is rough.
+        """
+        few = np.sqrt(_ENOUGH / np.maximum(self._samples, _ENOUGH))
+        return np.asarray(_OUT * (1.0 + few) * np.maximum(self._far, self._rough[0]))
+
     def _louder(self) -> Array:
         """Times the roughness of any healthy row, above which it is unusual."""
         return np.where(self._rows >= _MANY, _OUT, 1.5 * _OUT)
@@ -311,7 +304,7 @@ class SignalChecks:
         times = rough / np.maximum(self._rough[0], 1e-300)
         found = np.ones(len(times))
         for k in np.flatnonzero(self._drive & (rough > _FLOOR * span) & (times > 1.0)).tolist():
-            follows = [self._leads(name, self._names[k]) for name in self._names]
+            follows = [self._follows.leads(j, k) for j in range(len(self._names))]
             found = np.where(follows, found, np.maximum(found, times[k]))
         return np.where(self._drive, 1.0, found)
 
@@ -322,7 +315,7 @@ class SignalChecks:
         with np.errstate(divide="ignore", invalid="ignore"):
             floor = _FLOOR * np.maximum(span, 1e-300)
             rougher = np.fmax(rough / self._rough[0], 1.0)  # noise has as much larger peaks
-            spike = far[2] > np.maximum(_OUT * rougher * self._far, floor)
+            spike = far[2] > np.maximum(rougher * self._beyond(), floor)
             told = np.isin(self._names, list(self._noisy()))
             share = np.where(told, 0.5, 1.0)  # it goes on until it is half as much
             driving = np.where(told, 1.0, self._driving(rough, span))  # that it may be itself
@@ -415,7 +408,8 @@ class SignalChecks:
         """
         fresh = np.isfinite(far[0]) & (self._samples < _MOST)
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
-            out = far[0] > np.maximum(_OUT * self._far, _FLOOR * (self._range[1] - self._range[0]))
+            floor = _FLOOR * (self._range[1] - self._range[0])
+            out = far[0] > np.maximum(self._beyond(), floor)
         quiet = rough <= self._louder() * self._rough[0]
         spikes = out & quiet & (self._samples >= _ENOUGH)
         beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
@@ -461,7 +455,8 @@ class SignalChecks:
         move, and where that spike is."""
         near, next_, middle = _around(samples)
         error = middle - near * self._weights[:, 0] - next_ * self._weights[:, 1]
-        self._error, self._bends = np.nan_to_num(error), np.abs(middle - near / 2.0)
+        self._follows.row(np.nan_to_num(error), self._full, self._range[1] - self._range[0])
+        self._bends = np.abs(middle - near / 2.0)
         off, inside = np.abs(error), slice(_SIDE, len(error) - _SIDE)
         before, after = samples[1:-3], samples[3:-1]
         median = np.clip(middle, np.minimum(before, after), np.maximum(before, after))
@@ -496,7 +491,7 @@ class SignalChecks:
         steps, known = np.where(rare, sizes(steered), 0.0), self._stepped > 0.0
         times = steps / np.where(known, self._stepped, 1.0)
         most = answered(times.max(axis=1, initial=0.0))[:, None]
-        most = most * _OUT * np.maximum(self._far, self._answer[0])
+        most = most * np.maximum(self._beyond(), _OUT * self._answer[0])
         anywhere = answered(steps[:, ~known].max(axis=1, initial=0.0))[:, None] > 0.0
         return np.where(anywhere, math.inf, most)
 
@@ -504,7 +499,7 @@ class SignalChecks:
         """The spikes beside which no sample is nearly as far `out`, but for those next to them."""
         around = np.concatenate([self._before, out, np.zeros((_AROUND, out.shape[1]))])
         self._before = around[len(out) : len(out) + _AROUND]
-        if not (spike > _OUT * self._far).any():
+        if not (spike > self._beyond()).any():
             return spike
         near = np.lib.stride_tricks.sliding_window_view(around, _AROUND - _SIDE, axis=0).max(axis=2)
         largest = np.maximum(near[: len(out)], near[-len(out) :])
@@ -517,18 +512,16 @@ class SignalChecks:
         a sensor has shown follows it, and explains nothing of it. One that does it in the very
         sample may be what a controller makes of it: it explains what relations say a machine does.
         """
-        larger = (spike > _OUT * self._far) & (self._samples >= _ENOUGH) & ~self._drive
+        larger = (spike > self._beyond()) & (self._samples >= _ENOUGH) & ~self._drive
         if not larger.any():
             return np.zeros(spike.shape, dtype=np.bool_)
         at = np.flatnonzero(self._drive)
-        most, passed_on = np.full((len(self._names), len(at)), math.inf), None
+        most = np.full((len(self._names), len(at)), math.inf)
         for k in np.flatnonzero(larger.any(axis=0)).tolist():
-            later = np.array([self._later(self._names[k], self._names[j]) for j in at.tolist()])
+            later = np.array([self._follows.later(k, j) for j in at.tolist()])
             most[k, later > 0] = 0.0
-            if (later == 0).any() and self._passed_on is not None:
-                if passed_on is None:
-                    passed_on = self._passed_on(self._full, self._range[1] - self._range[0])
-                most[k, later == 0] = passed_on[k, at][later == 0]
+            if (later == 0).any():
+                most[k, later == 0] = self._follows.passes[k, at][later == 0]
         own = self._bends[_SIDE : len(self._bends) - _SIDE]
         return larger & (own <= _OUT * self._moves.explain(self._bends, most))
 

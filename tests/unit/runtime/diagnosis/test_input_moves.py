@@ -37,27 +37,81 @@ def _compiled(text: str) -> Compilation:
     return bondgraph.compile(Path("m.bg"), text=text, rate=1.0 / _STEP)
 
 
-def test_what_passes_in_a_sample_is_what_relations_have_of_both() -> None:
-    text = _SHAFT.replace("    1:shaft", "    input i : A\n    0:wire { <- Sf:i; -> R:Rs = 3; "
-                                         "-> De:v }\n    1:shaft")  # fmt: skip
+def _gain(text: str, sample: float, **sizes: float) -> dict[tuple[str, str], float]:
+    """How far sensors go for a unit of each input, by their names."""
     engine = _compiled(text).engine()
     names = [k.path for k in engine.signals]
-    sizes = np.where([name == "i" for name in names], 0.0, 1.0)  # it stands still
-    found = passed_on(engine, names, np.full(len(names), 2.0), sizes)
-    gain = {(y, u): found[names.index(y), names.index(u)] for y in "wv" for u in "ui"}
+    size = np.array([sizes.get(name, 1.0) for name in names])
+    found = passed_on(engine, names, np.full(len(names), sample), size)
+    return {(y, u): float(found[j, k]) for j, y in enumerate(names) for k, u in enumerate(names)}
+
+
+def test_what_passes_in_a_sample_keeps_all_relations() -> None:
+    text = _SHAFT.replace("    1:shaft", "    input i : A\n    0:wire { <- Sf:i; -> R:Rs = 3; "
+                                         "-> De:v }\n    1:shaft")  # fmt: skip
+    gain = _gain(text, 2.0, i=0.0)  # it stands still
     assert gain["v", "i"] == pytest.approx(3.0, rel=1e-6)
     # kf/J times a sample for what is held; less for what goes in straight lines between samples
     assert 0.3 * 115.0 / 1.2 * _STEP < gain["w", "u"] < 115.0 / 1.2 * _STEP
-    assert gain["w", "i"] == gain["v", "u"] == math.inf
-    assert np.isinf(passed_on(engine, names, np.full(len(names), math.nan), sizes)).all()
+    assert gain["w", "i"] == gain["v", "u"] == 0.0
+    assert all(map(math.isinf, _gain(text, math.nan, i=0.0).values()))
 
 
-def _governed(spikes: list[int]) -> Array:
-    """Of (u, w): a governor sets u by the reading of the same sample, which has spikes."""
+def test_an_input_does_not_reach_a_position_behind_two_storages_in_a_sample() -> None:
+    """One relation has the force and both: a position that answered alone would go 16 mm."""
+    gain = _gain(
+        """bg 1
+model Carts {
+    input F : N
+    param m = 2 kg
+    param k = 60 N/m
+    1:first { <- Se:F; -> I:a = m; -> tie; -> Df:v }
+    0:tie { -> C:spring = 1/k; -> second }
+    1:second { -> I:b = m }
+    sensor x : m = spring.q
+}
+""",
+        0.0,
+    )
+    assert 0.3 * _STEP / 2.0 < gain["v", "F"] < _STEP / 2.0
+    # x'' = (F - 2 k x)/m for the force alone: less than half of the square of a sample
+    assert gain["x", "F"] < 0.5 * _STEP**2 / 2.0 < 0.02 / 60.0
+
+
+def test_where_relations_do_not_tell_all_sensors_each_may_answer_alone() -> None:
+    gain = _gain(
+        """bg 1
+model Tied {
+    input u : N
+    input i : A
+    input load : N unknown
+    param k = 60 N/m
+    param m = 2 kg
+    1:near { <- Se:u; -> I:m; -> tie; -> Df:v }
+    0:tie { -> C:spring = 1/k; -> far }
+    1:far { <- Se:load; -> I:M = m }
+    sensor f : N = spring.e
+    0:wire { <- Sf:i; -> R:Rs = 3 Ohm; -> De:e }
+}
+""",
+        0.0,
+    )
+    # u = m v' + f: either of both would do
+    assert gain["f", "u"] == pytest.approx(1.0, rel=1e-6)
+    assert 0.3 * _STEP / 2.0 < gain["v", "u"] < _STEP / 2.0
+    assert gain["f", "i"] == gain["v", "i"] == math.inf and gain["e", "i"] == pytest.approx(3.0)
+
+
+def _governed(spikes: list[int], noisy: range = range(0)) -> Array:
+    """Of (u, w): a governor sets u by the reading of the same sample, which has spikes.
+
+    Or is noisy for a while.
+    """
     draw, speed, integral, rows = np.random.default_rng(6), 150.0, 0.3, []
     for k in range(6000):
         wanted = 150.0 + 8.0 * math.sin(k * _STEP / 3.0)
-        reading = speed + 0.1 * draw.normal() + 6.0 * (k in spikes)
+        reading = speed + 0.1 * draw.normal() * (8.0 if k in noisy else 1.0)
+        reading += 6.0 * (k in spikes)
         integral += 0.002 * _STEP * (wanted - reading)
         command = 0.78 + integral - 0.3 + 0.02 * (wanted - reading)
         rows.append((command, reading))
@@ -74,7 +128,7 @@ def _shunted(peaks: list[int]) -> Array:
     return np.column_stack([current, 3.0 * current + 0.05 * draw.normal(size=len(k))])
 
 
-def _spikes(c: Compilation, samples: Array) -> list[Verdict]:
+def _told(c: Compilation, samples: Array, what: str) -> list[Verdict]:
     engine = c.engine()
     base, watch = engine.configured(), c.diagnosis(engine)
     said: list[Verdict] = []
@@ -82,7 +136,11 @@ def _spikes(c: Compilation, samples: Array) -> list[Verdict]:
         part = samples[start : start + 100]
         time = np.arange(start, start + len(part)) * _STEP
         said += watch.update(time, base.run(part), part)
-    return [v for v in said if v.event == "fault" and "a spike of" in v.message]
+    return [v for v in said if v.event == "fault" and what in v.message]
+
+
+def _spikes(c: Compilation, samples: Array) -> list[Verdict]:
+    return _told(c, samples, "a spike of")
 
 
 def test_a_governor_that_acts_in_the_same_sample_hides_no_spike() -> None:
@@ -92,6 +150,11 @@ def test_a_governor_that_acts_in_the_same_sample_hides_no_spike() -> None:
     told = _spikes(c, _governed(at))
     assert [round((v.since or 0.0) / _STEP) for v in told] == at
     assert all("a spike of w" in v.message for v in told)
+
+
+def test_noise_that_a_governor_answers_in_the_same_sample_is_that_of_the_sensor() -> None:
+    (told,) = _told(_compiled(_SHAFT), _governed([], range(4000, 4600)), "a burst of noise of")
+    assert "of w" in told.message and 4000 * _STEP < told.time < 4300 * _STEP
 
 
 def test_a_voltage_has_the_peaks_of_its_current() -> None:

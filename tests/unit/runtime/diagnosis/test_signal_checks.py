@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Collection, Sequence
 from typing import Any
 
@@ -54,6 +55,36 @@ def test_a_spike_is_told_with_its_time(column: int, name: str, size: float, at: 
     assert one.since == pytest.approx(at * _STEP, abs=1.5 * _STEP)
     assert one.now * usual == pytest.approx(size, rel=0.15)
     assert one.before < 0.5 * one.now
+
+
+def _road(seed: int, spread: float) -> Array:
+    """Eight seconds at 200 Hz of an acceleration over a road, louder and softer within a second."""
+    draw, size = np.random.default_rng(seed), 0.0
+    loud = np.empty(1600)
+    for k in range(len(loud)):
+        size += -size / 100.0 + math.sqrt(2.0 / 100.0) * draw.normal()
+        loud[k] = math.exp(spread * size)
+    rough = loud * draw.normal(size=len(loud))
+    for _ in range(2):
+        rough = np.convolve(rough, [0.25, 0.5, 0.25], "same")
+    return rough[:, None]
+
+
+def _spikes(samples: Array) -> list[float]:
+    checks, found = SignalChecks(["a"], [0], 0.005), []
+    for k in range(0, len(samples) - 24, 25):
+        row = checks.row((k + 24) * 0.005, samples[k : k + 25], not checks.active)
+        found += [one.since for one in row if one.kind == "spike"]
+    return found
+
+
+@pytest.mark.parametrize("spread", [0.7, 1.0, 1.3])
+def test_of_few_samples_the_farthest_says_little_of_a_road(spread: float) -> None:
+    assert sum(bool(_spikes(_road(seed, spread))) for seed in range(60)) <= 1
+    for seed in range(10):
+        samples = _road(seed, spread)
+        samples[1210] += 5.0 * np.abs(samples[:1200]).max()
+        assert any(abs(since - 1210 * 0.005) < 0.01 for since in _spikes(samples))
 
 
 def test_a_step_is_no_spike() -> None:
