@@ -348,13 +348,9 @@ def _refined(case: Case, trial: _Trial, change: Array, signals: Sequence[int]) -
         starts = _starts(case, signals, usual)
         tolerated = (*(case.tolerated[k] for k in kept), *starts)
         bank, rows = replayed(case, start, tolerated)
-        mean, spread = _posterior(case, history, rows, len(signals))
-        # what a first count is off by is in the threshold: a start need not be told from that
-        begun = {h.fault for h in starts if h.unit == COUNT}
-        same = [k for k, h in enumerate(tolerated[: len(kept)])
-                if h.kind == "offset" and h.unit == COUNT and h.fault in begun]  # fmt: skip
-        _, told = _posterior(case, history, rows, len(signals), same)
-        level, doubt = _judged(case, rows, signals, told)
+        after = _after(case, history, rows)
+        mean, spread = after.last(len(signals))
+        level, doubt = _judged(case, rows, signals, tolerated, after)
         fit = Fit(start, tolerated, starts, spread, history, bank, rows, level, doubt)
         score = _misfit(case, rows)
         if best is not None and score > best[0]:
@@ -385,18 +381,14 @@ def _starts(case: Case, signals: Sequence[int], usual: Array) -> tuple[Hypothesi
     return tuple(found)
 
 
-def _posterior(
-    case: Case, history: History, rows: Sequence[Row], starts: int, without: Sequence[int] = ()
-) -> tuple[Array, Array]:
-    """What the starts, which stand last, are off by: mean and covariance, `without` some others."""
+def _after(case: Case, history: History, rows: Sequence[Row]) -> History:
+    """What is known of parameters and starts, which stand last, with some rows more."""
     own = list(case.own)
     found = History(history.prior)
     found.root = history.root
     for row in rows:
-        slopes = row.slopes[:, own]
-        slopes[list(without)] = 0.0
-        found.add(row.value[own], weight(row, case.sigma)[own], slopes, 1.0)
-    return found.last(starts)
+        found.add(row.value[own], weight(row, case.sigma)[own], row.slopes[:, own], 1.0)
+    return found
 
 
 def _misfit(case: Case, rows: Sequence[Row]) -> float:
@@ -405,17 +397,32 @@ def _misfit(case: Case, rows: Sequence[Row]) -> float:
 
 
 def _judged(
-    case: Case, rows: Sequence[Row], signals: Sequence[int], spread: Array
+    case: Case,
+    rows: Sequence[Row],
+    signals: Sequence[int],
+    tolerated: Sequence[Hypothesis],
+    known: History,
 ) -> tuple[float, float]:
-    """The largest residual over its threshold, and what the spread may do to one."""
-    own, columns = list(case.own), list(signals)
+    """The largest residual over its threshold, and what not to know the starts may do to one.
+
+    That is by how much its variance is larger than with starts that are known. A start need not be
+    told from a parameter that does the same: what both are off by together, the samples tell. With
+    the starts last, the whole variance is a sum of squares of which they have the last ones.
+    """
+    own, count = list(case.own), len(signals)
     good = [row for row in rows if row.valid[own].any()]
     if not good:
         return math.inf, math.inf
     allowed = np.array([row.bound[own] + case.limit[own] for row in good])
     level = float((np.abs([row.value[own] for row in good]) / allowed).max())
-    slopes = np.array([row.slopes[-len(columns) :][:, own] for row in good])  # (rows, starts, own)
-    before = case.steep[np.ix_(own, columns)].T
-    slopes = np.concatenate([slopes, before[None]])
-    moved = np.sqrt(np.einsum("tsr,su,tur->tr", slopes, spread, slopes))
+    before = np.zeros_like(good[0].slopes[:, own])
+    before[-count:] = case.steep[np.ix_(own, list(signals))].T
+    starts = {h.fault: at for at, h in enumerate(tolerated[-count:], len(tolerated) - count)}
+    for at, one in enumerate(tolerated[:-count]):
+        if one.kind == "offset" and one.unit == COUNT and one.fault in starts:
+            before[at] = -before[starts[one.fault]]  # a first count is off by the opposite
+    slopes = np.stack([*(row.slopes[:, own] for row in good), before])
+    whole = known.known()[:, :-1].T
+    moved = np.linalg.solve(whole, slopes * known.prior[:, None])[:, -count:]
+    moved = np.sqrt(np.square(moved).sum(axis=1))
     return level, float((_SPREAD * moved / np.median(allowed, axis=0)).max())

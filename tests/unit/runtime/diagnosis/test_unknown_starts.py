@@ -96,6 +96,37 @@ def test_a_fault_that_begins_later_is_seen_and_named(begins: float) -> None:
     assert named[:1] == ("V",)
 
 
+@pytest.mark.parametrize("begins", [0.75, 0.9])
+def test_a_start_need_not_be_told_from_a_parameter_that_does_the_same(begins: float) -> None:
+    """The voltage of a pack tells its charge and its open voltage together, and no more is needed.
+
+    1 % of that is 0.44 V, and a twentieth of the charge is 0.4 V. (Of a law that is straight the
+    relation has no start.)
+    """
+    c = bondgraph.compile(
+        text="""bg 1
+model Pack {
+    param E0 = 44 V +- 1%
+    param soc0 = 0.85 +- 20%
+    param R = 0.02 Ohm +- 5%
+    const Q = 259200 C
+    0:t { <- Sf:I; -> De:U; -> 1:c }
+    c { -> C:s(q0 = soc0*Q) { e = E0 + 7 V*q/Q + 0.6 V*(q/Q)^2 }; -> R:R }
+}""",
+        rate=1.0,
+    )
+    time, draw = np.arange(2400.0), np.random.default_rng(3)
+    current = -20.0 + 30.0 * np.sin(time / 40.0)
+    charge = begins * 259200.0 + np.cumsum(current) - current[0]
+    part = charge / 259200.0
+    volt = 44.2 + 7.0 * part + 0.6 * part**2 + 0.0202 * current + 0.02 * draw.normal(size=2400)
+    volt += 2.0 * (time > 1200.0)
+    verdicts = bondgraph.monitor(c, {"t": time, "I": current, "U": volt}).verdicts[0]
+    known = [v.time for v in verdicts if "r1 is watched from now on" in v.message]
+    (fault,) = [v.time for v in verdicts if v.event == "fault"]
+    assert known[0] < 600.0 and 1200.0 < fault < 1230.0
+
+
 def test_without_a_tolerance_the_start_is_what_is_declared() -> None:
     text, _ = said(cell(start=""), 6.0)
     assert "waits" not in text
