@@ -294,6 +294,63 @@ def test_a_sensor_tells_a_variable_before_a_law_of_many_parameters_does() -> Non
     assert texts == {"I*(E - k*T) - G*T - C*D(T)", "V + k*T - E - r*I"}
 
 
+@pytest.mark.parametrize(
+    ("reads", "a"),
+    [("der(body.f)", "a"), ("der(body.f)/2 + 3", "2*(a - 3)"), ("-der(body.f)", "-a")],
+)
+def test_accelerometers_tell_what_acts_on_masses(reads: str, a: str) -> None:
+    """Two masses and a moved end: m a = k x + b x', and x'' = z'' - (m a + M c)''/K - a.
+
+    Without them the end is four derivatives of the spring away.
+    """
+    c = compiled(
+        f"""model M {{ param m = 3; param M = 2; param k = 5; param b = 2; param K = 7; input z
+        0:tyre {{ <- Sf:end = der(z); -> C:tyre_spring = 1/K; -> wheel }}
+        1:wheel {{ -> I:M; -> strut }}
+        0:strut {{ -> tie; -> body }}
+        1:tie {{ -> C:spring = 1/k; -> R:b }}
+        1:body {{ -> I:m }}
+        sensor x = spring.q
+        sensor a = {reads}
+        sensor c = der(wheel.f) }}"""
+    )
+    acceleration = {"a": lambda a: a, "2*(a - 3)": lambda a: 2 * (a - 3), "-a": lambda a: -a}[a]
+    params = {"m": Q(3), "M": Q(2), "k": Q(5), "b": Q(2), "K": Q(7)}
+
+    def body(m, M, k, b, K, z, x, a, c):
+        return m * acceleration(a) - k * x - b * D(x)
+
+    def wheel(m, M, k, b, K, z, x, a, c):
+        return c - D(z, 2) + D(m * acceleration(a) + M * c, 2) / K
+
+    def spring(m, M, k, b, K, z, x, a, c):
+        return acceleration(a) + D(x, 2) - D(z, 2) + D(m * acceleration(a) + M * c, 2) / K
+
+    found = list(c.residuals)
+    assert len(found) == 3
+    for one in (body, wheel, spring):
+        assert any(is_multiple(r, one, params, ("z", "x", "a", "c")) for r in found), str(found)
+
+
+@pytest.mark.parametrize("friction", ["", "; -> R:b"])
+def test_an_accelerometer_costs_no_isolability(friction: str) -> None:
+    """In the balance of the one mass it would be in both relations, as the position is.
+
+    And with w = (T - J a)/c for the derivative of the angle both relations would have the friction.
+    """
+    c = compiled(
+        f"""model M {{ param J = 3; param k = 2; param b = 1; input T
+        1:shaft {{ <- Se:T; -> I:J; -> C:spring = 1/k{friction} }}
+        sensor angle = spring.q
+        sensor a = der(shaft.f) }}"""
+    )
+    assert "a - D(angle, 2)" in {relation.text for relation in c.residuals}
+    sees = [c.signatures.signature(relation.name) for relation in c.residuals]
+    assert [("angle" in own, "a" in own) for own in sorted(sees, key=len)] == [
+        (True, True), (True, False)
+    ]  # fmt: skip
+
+
 def test_a_measured_function_stays_unsolved_where_it_is_made_of_more() -> None:
     """Anti-windup by back-calculation: what was limited is used beside the limited value."""
     c = compiled(
