@@ -67,17 +67,20 @@ def with_rates(system: EquationSystem) -> EquationSystem:
         if state is None or law is None or equation.rate is None:
             return equation
         (other,) = [v for v in law.variables if v is not state]
-        own, beside = (affine(pool, law.zero, v) for v in (state, other))
-        if other not in rates or own is None or beside is None:
+        own = affine(pool, law.zero, state) if other in rates else None
+        beside = None if own is None else affine(pool, own[1], other)
+        if own is None or beside is None or is_zero(own[0]):
             return equation
-        if not (constant(own[0]) and constant(beside[0])) or is_zero(own[0]):
+        if not all(map(constant, (own[0], *beside))):
             return equation
         change = pool.neg(pool.div(pool.mul(beside[0], rates[other]), own[0]))
         zero = pool.sub(change, equation.rate)
         inside = tuple(variables(zero))
         return equation._replace(zero=zero, variables=inside, state=None, rate=None, initial=None)
 
-    return system._replace(equations=tuple(map(told, system.equations))) if laws else system
+    equations = tuple(map(told, system.equations)) if laws else system.equations
+    same = all(new is old for new, old in zip(equations, system.equations, strict=True))
+    return system if same else system._replace(equations=equations)
 
 
 def _measured(

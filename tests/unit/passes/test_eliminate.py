@@ -332,6 +332,20 @@ def test_accelerometers_tell_what_acts_on_masses(reads: str, a: str) -> None:
         assert any(is_multiple(r, one, params, ("z", "x", "a", "c")) for r in found), str(found)
 
 
+@pytest.mark.parametrize("law", ["e = k*q + u", "e = k*(1 + u)*q", "e = k*q + q^3", "e = k*q + 4"])
+def test_a_rate_is_none_of_what_a_storage_holds_by_a_law_that_moves(law: str) -> None:
+    """Its relations hold all the same, whatever they are made of."""
+    c = compiled(
+        f"""model M {{ param k = 2; param m = 3; param G = 5; input u; input i
+        0:node {{ <- Sf:i; -> C:store {{ {law} }}; -> R:leak {{ f = G*e }}; -> line }}
+        1:line {{ -> I:m; -> R:b = 4; -> Df:flow }}
+        sensor rate = der(node.e)
+        sensor e = node.e
+        sensor pull = der(line.f) }}"""
+    )
+    assert c.verification.method.startswith("exact") and len(c.residuals) == 4
+
+
 @pytest.mark.parametrize("friction", ["", "; -> R:b"])
 def test_an_accelerometer_costs_no_isolability(friction: str) -> None:
     """In the balance of the one mass it would be in both relations, as the position is.
