@@ -521,6 +521,7 @@ class ErrorsInVariables:
         """What is left of every residual at a point, beside what there was."""
         clean, added = self._rows([np.zeros(len(at)), at])
         before, after, noise = rms(clean[0]), rms(clean[1]), rms(added[1])
+        louder = np.where(rms(added[0]) > 0, noise / np.maximum(rms(added[0]), 1e-300), 1.0)
         term = np.max([after * 0.0, *map(rms, self._terms(at)[1])], axis=0)
         white = filtered(clean[1], self._noise_filters)
         share = self._follows(at)
@@ -535,7 +536,7 @@ class ErrorsInVariables:
                 Left(
                     name, int(np.isfinite(clean[1, :, k]).sum()), float(before[k]),
                     float(after[k]), float(noise[k]), memory, share[k], spans, float(term[k]),
-                    float(self._runs.lost[k]),
+                    float(self._runs.lost[k]), float(louder[k]),
                 )
             )
         return tuple(found)

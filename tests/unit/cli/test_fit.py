@@ -606,3 +606,12 @@ def test_a_residual_that_the_fit_makes_larger_has_no_negative_share_explained() 
     assert said.startswith("r1: 1.5 times what it is at the nominal values; what is left is 3 ")
     (said,) = _fits(Left("r1", 40, 2.0, 2.0002, 1.0, 0.0, None, (), 10.0), offset=False)
     assert said.startswith("r1: as large as at the nominal values; what is left is 2 ")
+
+
+def test_a_residual_that_is_larger_with_its_noise_is_said_to_be() -> None:
+    """1.45 times as large with 1.5 times the noise: beside that it is less than it was."""
+    left = Left("r1", 40, 2.0, 2.9, 2.9, 0.0, None, (), 10.0, 0.0, 1.5)
+    (said,) = _fits(left, offset=False)
+    assert "r1: 1.45 times what it is at the nominal values, and its noise 1.5 times: b" in said
+    (said,) = _fits(left._replace(louder=1.4), offset=False)
+    assert "r1: 1.45 times what it is at the nominal values; what is left" in said

@@ -641,6 +641,12 @@ def test_an_inductance_that_the_model_leaves_out_follows_the_input() -> None:
     assert only(found).doubted  # not for want of motion: R is told, by a residual that is wrong
 
 
+def test_noise_is_louder_by_what_it_is_multiplied_with() -> None:
+    """The residual U - R y has the noise R e, and R is 3 where 2 is declared."""
+    (left,) = fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.01)).left
+    assert left.louder == pytest.approx(1.5, rel=0.01)
+
+
 def test_the_terms_of_a_residual_are_its_two_sides() -> None:
     """The residual is U - R y: R y on one side, U on the other, filtered alike."""
     (one,) = fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.001)).terms
