@@ -365,6 +365,8 @@ def _fits(left: Left, offset: bool) -> list[str]:
         text = "as large as at the nominal values"
     elif left.explained < 0.0:  # other residuals tell its parameters better, and move them
         text = f"{left.after / left.before:.3g} times what it is at the nominal values"
+        if left.louder * left.before > left.after:  # its terms grew together: that is no misfit
+            text += f", and its noise {left.louder:.3g} times: beside that it is less"
     else:
         text = f"{100 * left.explained:.1f} % of it at the nominal values is explained"
     text = f"{left.residual}: {text}"

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from scipy.special import chdtri, stdtrit
 
 from bondgraph.runtime.diagnosis.fitted import MUCH, Left, Span, Suspect, Terms
+from bondgraph.runtime.diagnosis.instrumented import leaned
 from bondgraph.runtime.diagnosis.left_over import follows, instruments
 from bondgraph.runtime.diagnosis.levenberg_marquardt import STEPS, least
 from bondgraph.runtime.diagnosis.remembered import up_to_gaps
@@ -391,26 +392,21 @@ class ErrorsInVariables:
             for r, one in enumerate(value.T)
         ]
 
-    def disturbed(self, at: Array, residuals: Sequence[bool]) -> Array:
-        """By how much the disturbance in some residuals may have moved each thing that is fitted.
-
-        A disturbance is in the sensors too, and what is multiplied with them leans on it. The
-        inputs know nothing of it: with them as instruments (Wright 1928, Hausman 1978) the fit
-        would be so far away.
+    def disturbed(self, at: Array, residuals: Sequence[bool]) -> tuple[Array, Array]:
+        """By how much the disturbance in some residuals may have moved what is fitted, and surely
+        has, as covariances, as far as the inputs and a constant tell (`leaned`).
         """
-        s, inputs = self._slopes(at), self._runs.inputs()
-        by, value = s.by.copy(), s.value
-        for r in np.flatnonzero(residuals).tolist():
-            mask = self._mask[:, r]
-            basis = instruments(inputs, self._filters[:, r], mask)
-            if basis is not None:
-                whole = np.column_stack([basis, np.full(len(basis), len(basis) ** -0.5)])
-                by[:, ~mask, r] = 0.0
-                by[:, mask, r] = (by[:, mask, r] @ whole) @ whole.T
-        curved = np.einsum("atr,btr->ab", by, by) + self._pins.T @ self._pins
+        s, inputs, count = self._slopes(at), self._runs.inputs(), len(self.names)
+        masks = {r: self._mask[:, r] for r in np.flatnonzero(residuals).tolist()}
+        found = {r: instruments(inputs, self._filters[:, r], m) for r, m in masks.items()}
+        known = {
+            r: (masks[r], np.column_stack([basis, np.full(len(basis), len(basis) ** -0.5)]))
+            for r, basis in found.items() if basis is not None
+        }  # fmt: skip
+        curved = np.einsum("atr,btr->ab", s.by, s.by) + self._pins.T @ self._pins
         axes, shares = _axes(curved, self._spread)
-        away = (axes * shares) @ (axes.T @ np.einsum("atr,tr->a", by, value))
-        return np.asarray(away[: len(self.names)])
+        may, has = leaned(s.value, s.by, known, axes * np.sqrt(shares))
+        return may[:count, :count], has[:count, :count]
 
     def bound(self, at: Array) -> Mask:
         """Which parameters are where their sign would change."""
@@ -525,6 +521,7 @@ class ErrorsInVariables:
         """What is left of every residual at a point, beside what there was."""
         clean, added = self._rows([np.zeros(len(at)), at])
         before, after, noise = rms(clean[0]), rms(clean[1]), rms(added[1])
+        louder = np.where(rms(added[0]) > 0, noise / np.maximum(rms(added[0]), 1e-300), 1.0)
         term = np.max([after * 0.0, *map(rms, self._terms(at)[1])], axis=0)
         white = filtered(clean[1], self._noise_filters)
         share = self._follows(at)
@@ -539,7 +536,7 @@ class ErrorsInVariables:
                 Left(
                     name, int(np.isfinite(clean[1, :, k]).sum()), float(before[k]),
                     float(after[k]), float(noise[k]), memory, share[k], spans, float(term[k]),
-                    float(self._runs.lost[k]),
+                    float(self._runs.lost[k]), float(louder[k]),
                 )
             )
         return tuple(found)

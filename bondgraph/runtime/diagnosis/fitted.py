@@ -53,7 +53,8 @@ class Left(NamedTuple):
     row of it with the next once that of the noise is taken off: 0 where nothing else is in it.
     `follows` is the share of its mean square that functions of the inputs explain (`left_over`),
     None where that cannot be told. `term` is the root mean square of the largest of its terms.
-    `lost` are the seconds behind gaps, in which nobody knows where what it remembers stood.
+    `lost` are the seconds behind gaps, in which nobody knows where what it remembers stood. The
+    noise is `louder` times that at the nominal values.
     """
 
     residual: str
@@ -66,6 +67,7 @@ class Left(NamedTuple):
     spans: tuple[Span, ...]
     term: float
     lost: float = 0.0
+    louder: float = 1.0
 
     @property
     def nothing(self) -> bool:

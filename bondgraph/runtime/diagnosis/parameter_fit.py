@@ -72,13 +72,13 @@ def fit(
     at, whole, null, small, more = _declared(problem, at)
     covariance = whole[:count, :count]
     bound = problem.bound(at)
-    deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
     left = problem.left(at)
     spread = _spread(covariance)
     if any(x.much for x in left):
-        noisy, much = deviation, [x.much for x in left]
-        deviation = np.hypot(noisy, problem.disturbed(at, much))
-        spread += float(np.log(deviation / noisy).mean()) if noisy.all() else 0.0
+        may, has = problem.disturbed(at, [x.much for x in left])
+        spread = _spread(covariance + has)
+        covariance = covariance + may
+    deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
     told = (deviation < _TOLD * problem.sizes(at)) & ~bound[:count] & ~null.any(axis=0) & ~small
     sound = problem.sound(at, [x.wrong for x in left])
     values = problem.values(at).tolist()

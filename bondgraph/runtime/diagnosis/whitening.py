@@ -86,3 +86,13 @@ def newey_west(scores: Array) -> Array:
         part = own[lag:].T @ own[:-lag]
         found += (1.0 - lag / most) * (part + part.T)
     return np.asarray(found)
+
+
+def newey_west_variances(scores: Array) -> Array:
+    """The diagonal (p,) of `newey_west`, without all else."""
+    own = scores - scores.mean(axis=0)
+    found = (own**2).sum(axis=0)
+    most = _most(len(own))
+    for lag in range(1, min(most, len(own))):
+        found += 2.0 * (1.0 - lag / most) * (own[lag:] * own[:-lag]).sum(axis=0)
+    return np.asarray(found)

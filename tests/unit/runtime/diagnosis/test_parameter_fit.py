@@ -573,6 +573,62 @@ def test_a_disturbance_that_follows_no_input_widens_the_interval_to_what_it_has_
     assert min(wide) > 5 * still
 
 
+SUSPENSION = """bg 1
+model S { input road : m/s unknown; input u; param ms = 325 kg; param mu = 40 kg
+  param kt = 200 kN/m; param ks = 18 kN/m +- 5%; param c0 = 450 +- 20%; param c1 = 1700 +- 10%
+  Sf:road -> 0:tyre -> 1:wheel -> 0:strut -> 1:body; tyre -> C:spring = 1/kt; wheel -> I:mu
+  strut -> 1:leg; leg { -> C:coil = 1/ks; -> R:damper { e = (c0 + c1*u)*f } }; body -> I:ms
+  sensor stroke : m = coil.q; sensor ab : m/s^2 = der(body.f)
+  sensor aw : m/s^2 = der(wheel.f) }"""
+
+
+def _driven(seed: int, truth: dict[str, float]) -> Log:
+    """A car on a road, pushed by 5 N of wind; what it does commands its damper. By Euler's steps.
+
+    Stroke is read with an offset of 0.9 mm.
+    """
+    rows, sub, dt = 8000, 10, 0.005
+    draw = np.random.default_rng(seed)
+    road = lfilter([1.0], [1.0, -math.exp(-dt / 0.3)], draw.standard_normal(rows))
+    wind = lfilter([1.0], [1.0, -math.exp(-dt / 0.1)], draw.standard_normal(rows))
+    road, wind = 0.08 * road / np.std(road), 5.0 * wind / np.std(wind)
+    tyre = wheel = stroke = body = u = 0.0
+    table = []
+    for v, push in zip(road.tolist(), wind.tolist(), strict=True):
+        for step in range(sub + 1):
+            force = truth["ks"] * stroke + (truth["c0"] + truth["c1"] * u) * (wheel - body)
+            up, down = (force + push) / 325.0, (2e5 * tyre - force) / 40.0
+            if not step:
+                table.append([stroke, up, down, u])
+            if step < sub:
+                h = dt / sub
+                tyre, stroke = tyre + h * (v - wheel), stroke + h * (wheel - body)
+                wheel, body = wheel + h * down, body + h * up
+        u = min(0.1 + 4.0 * abs(body) * (body * (body - wheel) > 0.0), 1.0)
+    true = np.array(table).T
+    stroke, up, down = true[:3] + draw.standard_normal((rows, 3)).T * [[1e-4], [0.02], [0.1]]
+    columns = {"stroke": stroke + 9e-4, "ab": up, "aw": down, "u": true[3]}
+    return Log(dt * np.arange(rows), columns, {}, {})
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_command_that_explains_next_to_nothing_chooses_no_filter(seed: int) -> None:
+    """The command is made of what the road does, and tells nothing of the wind by itself.
+
+    Fits through it were noise that a faster filter has more of: that of 6.7 rad/s was taken, where
+    springs and dampers are off by more. What they cannot exclude is in the intervals: without it
+    those of six seeds have the truth in ten of eighteen cases.
+    """
+    truth = {"ks": 17400.0, "c0": 470.0, "c1": 1780.0}
+    c = bondgraph.compile(text=SUSPENSION, rate=200.0)
+    found = c.fit({"run": _driven(seed, truth)})
+    assert found.left[0].much and not found.left[0].wrong
+    assert found.bandwidth > 20.0
+    assert found.parameters[0].interval is not None
+    for one in found.parameters:
+        assert one.interval is None or holds(one, truth[one.name]), one.name
+
+
 def test_an_inductance_that_the_model_leaves_out_follows_the_input() -> None:
     """U = 3 y + 0.01 dy/dt, fitted as U = R y."""
     slope = (5.0 * 7.0 * np.cos(7.0 * TIME) + 3.0 * 23.0 * np.cos(23.0 * TIME)) / 3.0
@@ -583,6 +639,12 @@ def test_an_inductance_that_the_model_leaves_out_follows_the_input() -> None:
     assert left.follows > 0.8
     assert only(found).error is None
     assert only(found).doubted  # not for want of motion: R is told, by a residual that is wrong
+
+
+def test_noise_is_louder_by_what_it_is_multiplied_with() -> None:
+    """The residual U - R y has the noise R e, and R is 3 where 2 is declared."""
+    (left,) = fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.01)).left
+    assert left.louder == pytest.approx(1.5, rel=0.01)
 
 
 def test_the_terms_of_a_residual_are_its_two_sides() -> None:
@@ -746,7 +808,7 @@ def test_friction_of_an_axis_is_told_beside_what_its_model_leaves_out() -> None:
     columns["tau"] = wanted[: len(columns["x"])]
     log = Log(time[: len(columns["x"])], columns, {}, {})
     found = bondgraph.compile(text=AXIS, rate=500.0).fit({"run": log}, list(truth))
-    assert found.bandwidth == 160.0  # the usual is 10 rad/s
+    assert found.bandwidth > 10.0  # the usual one
     for one in found.parameters:
         assert one.value == pytest.approx(truth[one.name], rel=0.03), one.name
         if one.interval is not None:
