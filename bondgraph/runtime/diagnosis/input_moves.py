@@ -105,8 +105,9 @@ def passed_on(engine: Engine, names: Sequence[str], sample: Array, sizes: Array)
     kinds = {k.path: k.kind for k in engine.signals}
     sensors = [at for at, name in enumerate(names) if kinds[name] == "sensor"]
     inputs = [at for at, name in enumerate(names) if kinds[name] == "input"]
+    whole = len(sensors) == [*kinds.values()].count("sensor")  # an encoder may answer as well
     scaled = moved * sizes[:, None] / np.maximum((size * sizes[:, None]).max(axis=0), 1e-300)
-    told = len(sensors) > 0 and np.isfinite(scaled).all()
+    told = whole and len(sensors) > 0 and np.isfinite(scaled).all()
     if told and np.linalg.matrix_rank(scaled[sensors]) == len(sensors):
         made = np.abs(scaled[inputs] @ np.linalg.pinv(scaled[sensors])).T  # (sensors, inputs)
         found[np.ix_(sensors, inputs)] = made * sizes[sensors, None] / sizes[inputs]

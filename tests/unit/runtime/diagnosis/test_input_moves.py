@@ -40,9 +40,9 @@ def _compiled(text: str) -> Compilation:
 def _gain(text: str, sample: float, **sizes: float) -> dict[tuple[str, str], float]:
     """How far sensors go for a unit of each input, by their names."""
     engine = _compiled(text).engine()
-    names = [k.path for k in engine.signals]
+    names = [k.path for k in engine.signals if k.counts is None]
     size = np.array([sizes.get(name, 1.0) for name in names])
-    found = passed_on(engine, names, np.full(len(names), sample), size)
+    found = passed_on(engine, names, np.full(len(engine.signals), sample), size)
     return {(y, u): float(found[j, k]) for j, y in enumerate(names) for k, u in enumerate(names)}
 
 
@@ -100,6 +100,24 @@ model Tied {
     assert gain["f", "u"] == pytest.approx(1.0, rel=1e-6)
     assert 0.3 * _STEP / 2.0 < gain["v", "u"] < _STEP / 2.0
     assert gain["f", "i"] == gain["v", "i"] == math.inf and gain["e", "i"] == pytest.approx(3.0)
+
+
+def test_beside_an_encoder_that_may_answer_too_a_sensor_answers_alone() -> None:
+    """U = R i + k w and k i = J w' + b w: that k di is nothing would let di be less than dU/R."""
+    gain = _gain(
+        """bg 1
+model Motor {
+    input U : V
+    param R = 2 Ohm
+    param k = 3 N.m/A
+    1:coil { <- Se:U; -> R:R; -> GY:k -> shaft; -> Df:i }
+    1:shaft { -> I:J = 0.5; -> R:b = 1 }
+    sensor angle : rad = int(shaft.f) counts 1000/turn
+}
+""",
+        0.0,
+    )
+    assert gain["i", "U"] == pytest.approx(0.5, rel=1e-6)
 
 
 def _governed(spikes: list[int], noisy: range = range(0)) -> Array:
