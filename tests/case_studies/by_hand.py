@@ -62,15 +62,15 @@ CONTROLLED_TANKS = Case(
         "supply": "qp - kq*reading(up) - pump",
     },
     {
-        "r1": "tank1 - supply",
-        "r2": "tank2",
-        "r3": "control",
-        "r4": "supply",
-        "r5": "tank1 - supply + tank2",
-        "r6": "q = (leak2 + ko)*ssqrt(y2) + A2*D(y2)/(rho*g); y = y2 + (q/(kb*ub))*abs(q/(kb*ub)); "
-        "kq*reading(up) + pump - leak1*ssqrt(y) - q - A1*D(y)/(rho*g)",
+        "r1": "supply",
+        "r2": "tank1",
+        "r3": "tank2",
+        "r4": "control",
+        "r5": "tank1 + tank2",
+        "r6": "q = qp - leak1*ssqrt(y1) - A1*D(y1)/(rho*g); y = y1 - (q/(kb*ub))*abs(q/(kb*ub)); "
+        "q - (leak2 + ko)*ssqrt(y) - A2*D(y)/(rho*g)",
     },
-    {"tank1": "r1", "tank2": "r2", "control": "r3", "supply": "r4"},
+    {"tank1": "r2", "tank2": "r3", "control": "r4", "supply": "r1"},
     "A1 A2 Kp",
     (8, 6, 8, 8),
 )
@@ -133,13 +133,13 @@ STEAM_GENERATOR = Case(
     },
     {
         "r1": "boiling",
-        "r2": "mass - pump",
-        "r3": "heat - cw*Tf*pump",
-        "r4": "valve",
-        "r5": "pump",
-        "r6": "(rho - av*p)**2*(heat - cw*Tf*pump - cw*T*(mass - pump))",
+        "r2": "mass",
+        "r3": "heat",
+        "r4": "pump",
+        "r5": "valve",
+        "r6": "(rho - av*p)**2*(heat - cw*T*mass)",
     },
-    {"boiling": "r1", "mass": "r2", "heat": "r3", "valve": "r4", "pump": "r5"},
+    {"boiling": "r1", "mass": "r2", "heat": "r3", "valve": "r5", "pump": "r4"},
     "",
     (8, 8, 9, 9),
 )
