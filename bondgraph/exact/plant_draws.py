@@ -75,19 +75,27 @@ class _Declared:
 
 
 def _changed(
-    symbol: Expr, numbers: Numbers, random: Random, value: Series, n: int, turn: bool
+    symbol: Expr,
+    numbers: Numbers,
+    random: Random,
+    value: Series,
+    n: int,
+    turn: bool,
+    compared: bool = False,
 ) -> Series:
     """A parameter with a fault of finite size, a function of time; a switch turned over."""
     if symbol.symbol.kind is Kind.MODE:
         return [1 - value[0]]
-    first = numbers.off(random, value[0], turn)
+    first = numbers.off(random, value[0], turn, compared)
     return [first, *[numbers.any(random) * (first - value[0]) for _ in range(n - 1)]]
 
 
-def _error(numbers: Numbers, random: Random, value: Series, n: int) -> Series:
+def _error(
+    numbers: Numbers, random: Random, value: Series, n: int, limits: Sequence[Number]
+) -> Series:
     """What a faulty sensor or input adds to a signal, a function of time."""
     at = value[0] if value else numbers.number(0)
-    return [numbers.error(random, at) for _ in range(n)]
+    return [numbers.error(random, at, () if k else limits) for k in range(n)]
 
 
 class Draws:
@@ -148,14 +156,20 @@ class Draws:
         random = Random(seed * 7 + 3)
         n = order + structure.reach + 1 + _EXTRA
         true = dict(constants)
+        limits = [
+            numbers.fraction(x.number) if x.op is Op.NUM else constants[x][0]
+            for x in (structure.limits if faults else ()) if x.op is Op.NUM or x in constants
+        ]  # fmt: skip
         readings: dict[str, Series] = {}
         for name in faults:
             symbol = structure.faults[name]
             if symbol in true:
                 turn = turned and (len(faults) == 1 or random.random() < 0.5)
-                true[symbol] = _changed(symbol, numbers, random, true[symbol], n, turn)
+                true[symbol] = _changed(
+                    symbol, numbers, random, true[symbol], n, turn, symbol in structure.limits
+                )
             elif name in structure.readings:
-                readings[name] = _error(numbers, random, [], n)
+                readings[name] = _error(numbers, random, [], n, limits)
         sensors = [s for s in part.shown if read is None or s[1] in read]
         shown: tuple[Expr, ...] = ()
         if numbers.real:
@@ -175,10 +189,13 @@ class Draws:
             symbol = structure.faults[name]
             if name in structure.inputs and symbol in part.place:
                 true_value = truth.value(symbol)
-                told[symbol] = series.add(true_value, _error(numbers, random, true_value, n))
+                told[symbol] = series.add(
+                    true_value, _error(numbers, random, true_value, n, limits)
+                )
         for name, symbol, reads in sensors:
             reading = evaluate([reads], truth, order + 1)[0]
-            wrong = _error(numbers, random, reading, n) if name in faults else [0]
+            faulty = name in faults
+            wrong = _error(numbers, random, reading, n, limits) if faulty else [0]
             told[symbol] = series.add(reading, wrong)
         starts: dict[Symbol, Number] = {}
         for state in plant.place:

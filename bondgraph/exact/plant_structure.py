@@ -12,6 +12,7 @@ from itertools import chain
 
 from bondgraph.exact.assembly import Assembly, Parts, assemble
 from bondgraph.exact.outline import highest_order, outline, rational
+from bondgraph.exact.plant_equations import has_sides
 from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.ir.graph import BondGraph
 
@@ -28,9 +29,10 @@ class PlantStructure:
 
     `modes` are its boolean inputs, `constants` all else in its equations that does not vary, with
     their `declared` values. `faults` are the symbols that may be faulty, by name, `inputs` the
-    known inputs, by name; `readings` names the sensors whose readings a law uses. Sensors read up
-    to the derivative `reach`. `held` are the initial values that states keep, and `asked` is what
-    has to have a value besides the sensors, see `holding`.
+    known inputs, by name; `readings` names the sensors whose readings a law uses. `limits` are the
+    constants and numbers that signals are compared with. Sensors read up to the derivative
+    `reach`. `held` are the initial values that states keep, and `asked` is what has to have a value
+    besides the sensors, see `holding`.
     """
 
     def __init__(self, graph: BondGraph) -> None:
@@ -55,6 +57,7 @@ class PlantStructure:
         self.inputs = {i.name: i.symbol for i in graph.inputs if i.known and not i.mode}
         self.readings = {name for name, _, _ in self.assembly.readings}
         self.declared = {v.symbol: v.value for v in graph.values}
+        self.limits = _limits(roots)
         self._reads = {s.symbol: s.reads for s in graph.sensors if s.same_as is None}
         self._state_of = _initial_values(graph)
         self._initials: dict[Expr, list[Expr]] = {}
@@ -183,6 +186,15 @@ def _expressions(part: Assembly) -> list[Expr]:
     """What laws, rates and sensors of a part say."""
     said = [law for _, law in part.laws] + [r.value for r in part.rates]
     return said + [reads for _, _, reads in (*part.readings, *part.shown)]
+
+
+def _limits(roots: Iterable[Expr]) -> list[Expr]:
+    """The constants and numbers in comparisons, and in functions that have sides."""
+    compared = [n for n in topological(roots) if n.op is Op.CMP or has_sides(n)]
+    return [
+        n for n in topological(compared)
+        if n.op is Op.NUM or (n.op is Op.SYM and n.symbol.kind in _CONSTANT)
+    ]  # fmt: skip
 
 
 def _initial_values(graph: BondGraph) -> dict[Expr, Expr]:

@@ -35,6 +35,7 @@ _ID = attrgetter("id")
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
 _ROUNDS = 4  # so many times as many points where a branch was not met: it may have none
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
+_COMPARED = 3  # times as many for what is compared: one that turns no decision over has no slope
 _FEW = 8  # faults that are tried one by one where there are branches
 _TRIES = 40  # a point where a square root has no value is drawn again
 _LATER_TRIES = 4  # the same where it has divided by zero at all of so many points before
@@ -218,6 +219,8 @@ class Reactions:
         met = False
         known = assignments(free) if free else [self.modes]
         turns = max(self.turns, _turns([expr], self.modes))
+        if any(s in acting for s in _compared(expr)):
+            turns *= _COMPARED
         turns = max(1, turns // len(known))
         for turn, modes in [(turn, modes) for turn in range(turns) for modes in known]:
             try:
@@ -348,6 +351,13 @@ def _turns(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
         return _TURNS
     called = [n for e in exprs if Op.FN in outline(e).ops for n in outline(e).nodes]
     return 2 if any(n.op is Op.FN and n.name in CUT for n in called) else 1
+
+
+def _compared(expr: Expr) -> list[Expr]:
+    """The symbols that decide on which side of a limit a relation is."""
+    if outline(expr).ops.isdisjoint((Op.CMP, Op.FN)):
+        return []
+    return symbols(*[n for n in outline(expr).nodes if n.op is Op.CMP or has_sides(n)])
 
 
 def _points(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:

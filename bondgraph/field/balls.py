@@ -9,7 +9,7 @@ is asked near one, a table within its points, a decision near the numbers of its
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from random import Random
@@ -197,16 +197,30 @@ class Reals:
             return value * arb(2) ** arb(random.uniform(-1, 1))
         return arb(random.uniform(-1, 1))
 
-    def off(self, random: Random, value: Number, turn: bool) -> Number:
-        """A value larger or smaller by a factor of 1.03 to 101; of zero any."""
+    def off(self, random: Random, value: Number, turn: bool, compared: bool) -> Number:
+        """A value larger or smaller by a factor of 1.03 to 101; of zero any.
+
+        Every second time one that signals are `compared` with is of their size instead, so that
+        they lie between the two.
+        """
         if not self.nonzero(value):
             return self.error(random, value)
+        if compared and random.random() < 0.5:
+            size = self.sign(value) * _decades(random) * self._scale
+            return -size if turn else size
         factor = 1 + _decades(random)
         other = value * factor if random.random() < 0.5 else value / factor
         return -other if turn else other
 
-    def error(self, random: Random, value: Number) -> Number:
-        """From 0.03 to 100 of the value or, every second time, of one: what it takes to a limit."""
+    def error(self, random: Random, value: Number, limits: Sequence[Number] = ()) -> Number:
+        """From 0.03 to 100 of the value or, every second time, of one: what it takes to a limit.
+
+        With `limits` as often what takes it across one of these, or minus that, from where it is.
+        """
+        if limits and random.random() < 0.5:
+            across = random.choice((-1, 1)) * random.choice(limits) - value
+            if self.nonzero(across):
+                return across * arb(1 + random.random())
         size = random.choice((-1, 1)) * _decades(random)
         return size * value if random.random() < 0.5 and self.nonzero(value) else size
 

@@ -6,6 +6,7 @@ zero, what a function is, how a random number is drawn. Small whole numbers may 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from random import Random
 from typing import Any, Protocol, TypeAlias
@@ -109,12 +110,18 @@ class Numbers(Protocol):
         """A random number that a parameter of this value may have instead."""
         ...
 
-    def off(self, random: Random, value: Number, turn: bool) -> Number:
-        """A parameter after a fault of any size; at a `turn` of the other sign."""
+    def off(self, random: Random, value: Number, turn: bool, compared: bool) -> Number:
+        """A parameter after a fault of any size; at a `turn` of the other sign.
+
+        One that signals are `compared` with may be of their size instead.
+        """
         ...
 
-    def error(self, random: Random, value: Number) -> Number:
-        """What a reading of this value, or of about one, is wrong by: any of some decades."""
+    def error(self, random: Random, value: Number, limits: Sequence[Number] = ()) -> Number:
+        """What a reading of this value, or of about one, is wrong by: any of some decades.
+
+        Where readings are compared with `limits`, it may also be across one of these.
+        """
         ...
 
     def argument(

@@ -8,7 +8,7 @@ functions are random tables that keep the identities between them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from random import Random
 from typing import Any
@@ -118,11 +118,11 @@ class PrimeField:
         """A random number: nothing is near anything in a field."""
         return self.any(random)
 
-    def off(self, random: Random, value: Number, turn: bool) -> Number:
+    def off(self, random: Random, value: Number, turn: bool, compared: bool) -> Number:
         """A random number."""
         return self.any(random)
 
-    def error(self, random: Random, value: Number) -> Number:
+    def error(self, random: Random, value: Number, limits: Sequence[Number] = ()) -> Number:
         """A random number."""
         return self.any(random)
 

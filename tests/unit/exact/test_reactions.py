@@ -132,6 +132,34 @@ def test_a_fault_that_shows_in_a_narrow_range_of_large_numbers_is_seen(seed: int
     assert set(c.signatures.signature("r1")) == {"ps", "p0", "k", "V", "u", "m"}
 
 
+#: A flow that begins where a signal passes a limit; the limit is all that its size matters for.
+_SPILL = """bg 1
+model M {{ param R = 2; param k = 3; param kw = 0.5; param lim = 0.001; input u
+  Sf:s = {flow}
+  s -> 0:n {{ -> C:h(q0 = 0) {{ e = k*q }}; -> R:out = R; -> R:weir {{ f = {weir} }} }}
+  1:m {{ <- Se:u; -> R:own = R; -> Df:i }}
+  sensor y = m.f + n.e }}
+"""
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("flow", ["if(u > 40 or u < -50, 1, 0)", "if(u > 1e6, 1, 0)"])
+def test_an_input_that_is_only_compared_is_seen_at_any_limit(flow: str, seed: int) -> None:
+    """y - i depends on u in no other way than by whether it is beyond."""
+    c = bondgraph.compile(text=_SPILL.format(flow=flow, weir="kw*e"), seed=seed)
+    flows = [r for r in c.signatures.residuals if "k" in c.signatures.signature(r)]
+    assert len(flows) == 1
+    assert {"k", "kw", "u", "y", "i"} <= set(c.signatures.signature(flows[0]))
+
+
+@pytest.mark.parametrize("seed", [2, 3, 10])
+def test_a_limit_far_below_the_signals_is_seen(seed: int) -> None:
+    """Any limit above 0.001 closes the weir at some e that is above 0.001 and below that limit."""
+    weir = "if(e > lim or e < -lim, kw*e, 0)"
+    c = bondgraph.compile(text=_SPILL.format(flow="u", weir=weir), seed=seed)
+    assert any("lim" in c.signatures.signature(r) for r in c.signatures.residuals)
+
+
 def test_machines_that_are_alike_begin_differently(monkeypatch: pytest.MonkeyPatch) -> None:
     """Wires of one resistance feed equal motors, of which most relations compare two.
 

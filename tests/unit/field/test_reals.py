@@ -223,7 +223,7 @@ def test_a_parameter_elsewhere_is_within_a_factor_of_two_and_none_is_around_zero
 
 @pytest.mark.parametrize("turn", [False, True])
 def test_a_fault_makes_a_parameter_larger_or_smaller_by_a_factor_of_any_size(turn: bool) -> None:
-    found = _drawn(lambda r: F.off(r, arb(5), turn))
+    found = _drawn(lambda r: F.off(r, arb(5), turn, False))
     factors = sorted(x / (-5 if turn else 5) for x in found)
     assert 1 / 101 <= factors[0] < 1 / 50 and 50 < factors[-1] <= 101
     nearest = min(abs(x - 1) for x in factors)
@@ -238,8 +238,28 @@ def test_errors_are_of_either_sign_some_of_one_and_some_of_the_reading() -> None
         assert (sum(x > 100 for x in sizes) > 100) == (value > 0)
     signs = [x < 0 for x in _drawn(lambda r: F.error(r, arb(1)))]
     assert 150 < sum(signs) < 250
-    zero = [abs(x) for x in _drawn(lambda r: F.off(r, arb(0), False))]
+    zero = [abs(x) for x in _drawn(lambda r: F.off(r, arb(0), False, False))]
     assert min(zero) >= 0.03 and 50 < max(zero) <= 100
+
+
+@pytest.mark.parametrize("turn", [False, True])
+def test_what_is_compared_changes_to_the_size_of_signals_every_second_time(turn: bool) -> None:
+    """A limit of 10**-6 times at most 101 is under 0.0002, and every signal is above 0.003."""
+    side = -1 if turn else 1
+    limit, scale = arb(10) ** -6, Reals({}, scale=0.1)
+    found = sorted(side * x for x in _drawn(lambda r: scale.off(r, limit, turn, True)))
+    assert found[0] > 0 and 150 < sum(x >= 0.003 for x in found) < 250
+    assert 5 < found[-1] <= 10
+
+
+def test_an_error_of_what_is_compared_takes_it_across_a_limit_from_where_it_is() -> None:
+    """From 3 to beyond 1000 or -1000: no other error of 3 is as large."""
+    told = [3 + x for x in _drawn(lambda r: F.error(r, arb(3), [arb(1000)]))]
+    beyond = [x for x in told if abs(x) >= 1000]
+    assert 150 < len(beyond) < 250 and max(map(abs, told)) < 2010
+    assert 60 < sum(x < 0 for x in beyond) < 140
+    at_it = _drawn(lambda r: F.error(r, arb(0), [arb(0)]))  # no way across: as any other
+    assert min(map(abs, at_it)) >= 0.03
 
 
 def _arguments(
