@@ -162,8 +162,8 @@ class Diagnosis:
         self._last = []
         for part in self._parts(time, batch, samples, out):
             if self._learning is not None:
-                fresh = self._learning.part(part, self._healthy, self._doubt.acted)
-                self._status.relearning(float(part.time[0]), fresh, out)
+                anew = self._learning.part(part, self._healthy, self._doubt.acted)
+                self._status.relearning(float(part.time[0]), *anew, out)
                 if self._learning.anew:
                     self._checkpoints.clear()
             line = part.bound + self._levels.beyond(self._limits)

@@ -177,10 +177,11 @@ class Learning:
         self._due[own & ~self.unsure] = _MOST + 1
         self._modes = [[] if o else m for m, o in zip(self._modes, own, strict=True)]
 
-    def part(self, part: Part, healthy: bool, acted: Array) -> Mask:
+    def part(self, part: Part, healthy: bool, acted: Array) -> tuple[Mask, Mask]:
         """Samples of a row that is not full yet, with what half a sample of the commands makes.
 
-        Returns the residuals whose noise has to be learned again, for switches as never before.
+        Returns the residuals whose noise has to be learned again: as switches stand as never
+        before, and as the machine is driven as never before.
         """
         mean = self.limits[:, 4]
         for side, value in enumerate((part.value + mean, -part.value - mean)):
@@ -188,14 +189,14 @@ class Learning:
             self._peak[side] = np.maximum(self._peak[side], excess.max(axis=0, initial=-math.inf))
         if len(acted):
             self._acted = np.maximum(self._acted, acted.max(axis=0))
-        fresh = np.zeros(len(self._wanted), dtype=bool)
+        switched, driven = np.zeros((2, len(self._wanted)), dtype=bool)
         for k in [k for k, m in enumerate(self._modes) if m]:
             now = _settings(part.samples[:, self._modes[k]])
             self._now[k] |= now
             if self._wanted[k] or not healthy or now <= self._learned[k]:
                 continue
             self._wanted[k], self.limits[k, 0] = True, math.inf
-            fresh[k] = not now <= self._met[k]
+            switched[k] = not now <= self._met[k]
             self._met[k] |= now
         self._sound &= part.valid.all(axis=0)
         if self._driving:
@@ -205,8 +206,8 @@ class Learning:
             self._driving.show(part, limit)
             for k in np.flatnonzero(anew & sure).tolist():
                 self._forget(k)
-                fresh[k] = not self._covered[k]
-        return fresh
+                driven[k] = not self._covered[k]
+        return switched, driven
 
     def _forget(self, k: int) -> None:
         """What is known of the noise of a residual does not hold any longer."""

@@ -150,11 +150,12 @@ class WatchStatus:
             out.append(Verdict("invalid", time, message=message))
         self._hopeless = hopeless.copy()
 
-    def relearning(self, time: float, fresh: Mask, out: list[Verdict]) -> None:
-        """Driven or switched as never before: the noise of `fresh` residuals is not known."""
-        if fresh.any():
-            message = f"driven as never before: {self._learning(time, fresh, anew=True)}"
-            out.append(Verdict("warm-up", time, message=message))
+    def relearning(self, time: float, switched: Mask, driven: Mask, out: list[Verdict]) -> None:
+        """The noise of some residuals is not known: `switched` or `driven` as never before."""
+        for fresh, how in ((switched, "switched"), (driven & ~switched, "driven")):
+            if fresh.any():
+                message = f"{how} as never before: {self._learning(time, fresh, anew=True)}"
+                out.append(Verdict("warm-up", time, message=message))
 
     def _watched(self, of: Mask) -> str:
         return f"{self.names(of)} {'is' if of.sum() == 1 else 'are'} watched from now on"

@@ -70,6 +70,32 @@ def test_a_machine_that_idled_is_learned_anew_when_it_works(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
+def test_a_drain_that_opens_for_the_first_time_is_said_to_be_switched(seed: int) -> None:
+    """The flow is what it was: a second resistance of the same size takes half of it."""
+    text = _TEXT.replace("{tolerance}", "").replace("input q", "input open : bool\n    input q")
+    text = text.replace("-> R:R;", "-> R:R { f = if(open, 2, 1)*e/R };")
+    machine = Compilation(Source("tank.bg", text)).with_options(rate=1.0, bandwidth=0.2)
+    count, level = 1200, 2.0
+    opened, rows = np.arange(count) >= 700, []
+    for wide in opened.tolist():
+        rows.append((wide, 1.0, level))
+        out = 1.0 if wide else 2.0
+        level = out + (level - out) * math.exp(-1.0 / (20.0 * out))
+    engine = machine.engine()
+    order = [["open", "q", "p"].index(k.path) for k in engine.signals]
+    samples = np.array(rows, dtype=float)[:, order]
+    noise = np.random.default_rng(seed).normal(size=count) * 0.002
+    samples[:, order.index(2)] += noise
+    watch, said = machine.diagnosis(engine), []
+    base = engine.configured()
+    for k in range(0, count, 15):
+        part = samples[k : k + 15]
+        said += watch.update(np.arange(k, k + len(part)) * 1.0, base.run(part), part)
+    (anew,) = [v for v in said if "as never before" in v.message]
+    assert anew.message.startswith("switched as never before") and 690.0 <= anew.time <= 715.0
+
+
+@pytest.mark.parametrize("seed", range(3))
 def test_who_is_watched_all_the_time_is_said_to_be_once(seed: int) -> None:
     """With tolerances a residual is watched on while its noise is learned anew, or recalled."""
     samples = _samples(seed, idle=2400)
