@@ -9,6 +9,7 @@ import numpy as np
 from bondgraph.ir.program import law_pace
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
+from bondgraph.runtime.diagnosis.jumps import Jumps
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 
@@ -30,6 +31,8 @@ class Doubt:
     - A converter holds a command until the next one, so that it acts half a sample later than
       what moves in straight lines from sample to sample: as much as that makes is in doubt. What
       it made at most while noise was learned is in the noise; only where it is more, it counts.
+    - So does what a sensor reads where it jumps between two samples, as an accelerometer does when
+      a rope gives way: nobody knows when between them.
     - A nonlinear law of filtered derivatives is off by what the filter in front of it does to the
       signals. With half the time constants that is a quarter. What comes out of it then is filtered
       by what the slower filters have more: what is linear is the same by both ways, to the last
@@ -45,6 +48,9 @@ class Doubt:
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = sorted({place[m] for n in natures for m in n.modes})
         self._commands = [place[k.path] for k in engine.signals if k.kind == "input"]
+        self._sensors = [
+            place[k.path] for k in engine.signals if k.kind == "sensor" and k.counts is None
+        ]
         self._bent = [(k, n.stages, n.laws) for k, n in enumerate(natures) if n.approximate]
         pace = engine.bandwidth * engine.sample_time
         self._faster = max(min(_FASTER, _FASTEST / pace), 1.0)
@@ -57,7 +63,8 @@ class Doubt:
         """The next sample is the first."""
         engine = self._engine
         count = len(engine.residuals)
-        late = bool(self._modes or self._commands)
+        self._jumps = Jumps(len(self._sensors))
+        late = bool(self._modes or self._commands or self._sensors)
         self._late = engine.configured(bounds=False) if late else None
         faster = engine.bandwidth * self._faster
         self._fast = engine.configured(bandwidth=faster, bounds=False) if self._bent else None
@@ -89,7 +96,8 @@ class Doubt:
         return doubt, valid
 
     def _late_by(self, late: Engine, samples: Array, batch: Batch, valid: Mask) -> Array:
-        """What it makes that commands act half a sample later, and switches turn a whole one."""
+        """What it makes that commands and jumps of sensors come half a sample later, and switches a
+        whole one."""
         if not len(samples):
             return np.zeros_like(batch.value)
         last = samples[0] if self._sample is None else self._sample
@@ -97,6 +105,7 @@ class Doubt:
         told = samples.copy()
         told[:, self._modes] = before[:, self._modes]
         told[:, self._commands] = 0.5 * (told + before)[:, self._commands]
+        told[:, self._sensors] -= 0.5 * self._jumps.run((samples - before)[:, self._sensors])
         self._sample = samples[-1].copy()
         other = late.run(told)
         return np.where(other.valid & valid, np.abs(batch.value - other.value), 0.0)

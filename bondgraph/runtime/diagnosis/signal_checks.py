@@ -16,6 +16,7 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.following import Following
 from bondgraph.runtime.diagnosis.input_moves import InputMoves
+from bondgraph.runtime.diagnosis.jumps import ENOUGH, OUT, far_out
 from bondgraph.runtime.diagnosis.rare_steps import answered, answers, rare_steps, sizes
 from bondgraph.runtime.diagnosis.rows import PAUSE, away
 from bondgraph.runtime.diagnosis.standing_encoders import StandingEncoders
@@ -23,9 +24,7 @@ from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.text.tuples import NamedTuple
 
-_ENOUGH = 200  # samples of a signal to know it by
 _MOST = 5000  # after which nothing more is learned of it
-_OUT = 2.0  # times as far out as any sample, or row, was while all was well
 _FLOOR = 0.02  # of the range of a signal: what is smaller matters to nothing
 _NOISY = 0.003  # rough beside its own motion, in any healthy row: noise that would be missed
 _MANY = 100  # rows that tell how rough a signal may become: with fewer, half as much again
@@ -186,7 +185,7 @@ class SignalChecks:
         kinds = self._unusual(far, rough, moved, runs, span, self._matters(rough, suspects))
         kinds["stuck"][0][self._rests(own[-1], runs, top, bottom, suspects)] = False
         for kind, (out, now, before) in kinds.items():
-            for k in np.flatnonzero(out & (self._samples >= _ENOUGH)).tolist():
+            for k in np.flatnonzero(out & (self._samples >= ENOUGH)).tolist():
                 late = len(with_last) - 1 - where[k] if kind == "spike" else len(own) - 1
                 late = runs[k] - 1 if kind == "stuck" else late
                 since = time - float(late) * self._step
@@ -202,7 +201,7 @@ class SignalChecks:
         with np.errstate(invalid="ignore"):  # of a signal of which nothing is known
             before = self._range[1] - self._range[0]
             beyond = (span > 2.0 * before) & (span > 0.0)  # as far as all that it did before
-        beyond &= self._drive & (self._samples >= _ENOUGH)
+        beyond &= self._drive & (self._samples >= ENOUGH)
         self._range[:, beyond] = [bottom[beyond], top[beyond]]  # there it has been now
         self._driven = 0 if driven or beyond.any() else self._driven + 1
         if self._driven < _AFTER:
@@ -288,12 +287,11 @@ class SignalChecks:
         A road is rougher in one second than in the last. And where no sample has been alone yet,
         one may be as far out as the signal is rough.
         """
-        few = np.sqrt(_ENOUGH / np.maximum(self._samples, _ENOUGH))
-        return np.asarray(_OUT * (1.0 + few) * np.maximum(self._far, self._rough[0]))
+        return np.asarray(far_out(self._samples) * np.maximum(self._far, self._rough[0]))
 
     def _louder(self) -> Array:
         """Times the roughness of any healthy row, above which it is unusual."""
-        return np.where(self._rows >= _MANY, _OUT, 1.5 * _OUT)
+        return np.where(self._rows >= _MANY, OUT, 1.5 * OUT)
 
     def _driving(self, rough: Array, span: Array) -> Array:
         """How many times rougher than in any healthy row sensors may be by what drives them.
@@ -359,14 +357,14 @@ class SignalChecks:
             self._seen = []
             return
         self._seen.append((own, steered))
-        if sum(len(row) for row, _ in self._seen) < _ENOUGH:
+        if sum(len(row) for row, _ in self._seen) < ENOUGH:
             return
         near, next_, middle = _around(np.concatenate([row for row, _ in self._seen]))
         weights = []
         for k in range(own.shape[1]):
             table = np.column_stack([near[:, k], next_[:, k], middle[:, k]])
             table = table[np.isfinite(table).all(axis=1)]
-            if len(table) < _ENOUGH // 2:
+            if len(table) < ENOUGH // 2:
                 weights.append(_SMOOTH)
                 continue
             # of an average: what is expected moves with the signal, wherever its zero is
@@ -411,7 +409,7 @@ class SignalChecks:
             floor = _FLOOR * (self._range[1] - self._range[0])
             out = far[0] > np.maximum(self._beyond(), floor)
         quiet = rough <= self._louder() * self._rough[0]
-        spikes = out & quiet & (self._samples >= _ENOUGH)
+        spikes = out & quiet & (self._samples >= ENOUGH)
         beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
         seen = samples[2 * _SIDE : len(samples) - 2 * _SIDE]
         usual = self._run <= np.maximum(self._still, 1.0) * 2.0  # else it may have begun to stand
@@ -467,8 +465,8 @@ class SignalChecks:
         beside = answers(rare)[own] & ~self._drive
         # than all that were answered: how far that goes nobody knows
         larger = answers(rare & (sizes(steered) > self._stepped))[own]
-        known = beside & ~larger & (self._answer[1] >= _ENOUGH)
-        usual = known & (single <= _OUT * self._answer[0])
+        known = beside & ~larger & (self._answer[1] >= ENOUGH)
+        usual = known & (single <= OUT * self._answer[0])
         unknown = beside & ~known & (~larger | (single <= self._at_most(steered, rare)[own]))
         spike = np.where(usual | unknown, 0.0, single)
         answer = np.where(beside, single, 0.0).max(axis=0)
@@ -491,7 +489,7 @@ class SignalChecks:
         steps, known = np.where(rare, sizes(steered), 0.0), self._stepped > 0.0
         times = steps / np.where(known, self._stepped, 1.0)
         most = answered(times.max(axis=1, initial=0.0))[:, None]
-        most = most * np.maximum(self._beyond(), _OUT * self._answer[0])
+        most = most * np.maximum(self._beyond(), OUT * self._answer[0])
         anywhere = answered(steps[:, ~known].max(axis=1, initial=0.0))[:, None] > 0.0
         return np.where(anywhere, math.inf, most)
 
@@ -512,7 +510,7 @@ class SignalChecks:
         a sensor has shown follows it, and explains nothing of it. One that does it in the very
         sample may be what a controller makes of it: it explains what relations say a machine does.
         """
-        larger = (spike > self._beyond()) & (self._samples >= _ENOUGH) & ~self._drive
+        larger = (spike > self._beyond()) & (self._samples >= ENOUGH) & ~self._drive
         if not larger.any():
             return np.zeros(spike.shape, dtype=np.bool_)
         at = np.flatnonzero(self._drive)
@@ -523,7 +521,7 @@ class SignalChecks:
             if (later == 0).any():
                 most[k, later == 0] = self._follows.passes[k, at][later == 0]
         own = self._bends[_SIDE : len(self._bends) - _SIDE]
-        return larger & (own <= _OUT * self._moves.explain(self._bends, most))
+        return larger & (own <= OUT * self._moves.explain(self._bends, most))
 
     def _steps(self, error: Array) -> Mask:
         """Where a step to or from a sample explains more of the errors around it than a spike does.

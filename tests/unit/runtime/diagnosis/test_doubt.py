@@ -58,6 +58,46 @@ def test_steps_of_a_held_command_are_no_fault_however_large() -> None:
         assert all(time >= 2 * _COUNT // 3 * _STEP for time in fired)
 
 
+_CAR = """bg 1
+model Car {
+    input pull : N unknown
+    1:car { <- Se:pull; -> I:m = 750 kg }
+    sensor x : m = int(car.f)
+    sensor a : m/s^2 = der(car.f)
+}
+"""
+
+
+def _let_go(seed: int, share: float, bias: float) -> Array:
+    """Of (x, a): a car that moves with sin(t) and is let go by 5 m/s^2 at 60 and 100 s.
+
+    That share of a sample earlier. The accelerometer has a `bias` from 80 s on.
+    """
+    t = np.arange(_COUNT) * _STEP
+    place, rate = t - np.sin(t), np.sin(t) + bias * (t >= 80.0)
+    for at in (60.0, 100.0):
+        since = np.maximum(t - at + share * _STEP, 0.0)
+        place -= 5.0 * (since - 1.0 + np.exp(-since))
+        rate -= 5.0 * np.exp(-since) * (since > 0.0)
+    noise = np.random.default_rng(seed).normal(size=(2, _COUNT))
+    return np.column_stack([place + 1e-5 * noise[0], rate + 0.005 * noise[1]])
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+@pytest.mark.parametrize("bias", [0.0, 0.3])
+def test_a_reading_that_jumps_between_two_samples_is_no_fault(share: float, bias: float) -> None:
+    """Of a = x'' both are right; straight lines to the reading behind the jump are not."""
+    made = Compilation(Source("m.bg", _CAR), None, Options(rate=1.0 / _STEP))
+    engine = made.engine()
+    assert [k.path for k in engine.signals] == ["x", "a"]
+    log = _let_go(1, share, bias)
+    said = made.diagnosis(engine).update(np.arange(_COUNT) * _STEP, engine.run(log), log)
+    named = [v.candidates[0].fault for v in said if v.event == "update"]
+    assert [v.event for v in said].count("fault") == bool(bias)
+    assert named == (["a"] if bias else [])
+    assert all(v.time > 80.0 for v in said if v.event == "fault")
+
+
 _DRAG = """bg 1
 model Drag {
     input F : N
