@@ -89,8 +89,11 @@ def passed_on(engine: Engine, names: Sequence[str], sample: Array, sizes: Array)
     of sensors by inputs. Elsewhere each alone may be what does, in the relations that have both: by
     how much the other one moves such a residual in that sample, over by how much the signal itself
     does; infinite where none has both. Near a `sample` of all signals, with the `sizes` of those
-    that have these names.
+    that have these names. An encoder is a sensor, too: it may answer as well.
     """
+    kinds, own = {k.path: k.kind for k in engine.signals}, len(names)
+    others = [n for n, kind in kinds.items() if kind == "sensor" and n not in names]
+    names, sizes = [*names, *others], np.concatenate([sizes, np.ones(len(others))])
     sizes = np.where(np.isfinite(sizes) & (sizes > 0.0), sizes, 1.0)  # of what stands still as well
     known = [Hypothesis(name, "offset", "", float(size), False)
              for name, size in zip(names, sizes, strict=True)]  # fmt: skip
@@ -102,16 +105,14 @@ def passed_on(engine: Engine, names: Sequence[str], sample: Array, sizes: Array)
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(both, size[None] / size[:, None], 0.0).max(axis=2, initial=0.0)
     found = np.where(both.any(axis=2), ratio, math.inf)
-    kinds = {k.path: k.kind for k in engine.signals}
     sensors = [at for at, name in enumerate(names) if kinds[name] == "sensor"]
     inputs = [at for at, name in enumerate(names) if kinds[name] == "input"]
-    whole = len(sensors) == [*kinds.values()].count("sensor")  # an encoder may answer as well
     scaled = moved * sizes[:, None] / np.maximum((size * sizes[:, None]).max(axis=0), 1e-300)
-    told = whole and len(sensors) > 0 and np.isfinite(scaled).all()
+    told = len(sensors) > 0 and np.isfinite(scaled).all()
     if told and np.linalg.matrix_rank(scaled[sensors]) == len(sensors):
         made = np.abs(scaled[inputs] @ np.linalg.pinv(scaled[sensors])).T  # (sensors, inputs)
         found[np.ix_(sensors, inputs)] = made * sizes[sensors, None] / sizes[inputs]
-    return found
+    return found[:own, :own]
 
 
 def _most(bends: Array) -> Array:
