@@ -39,8 +39,11 @@ class Jumps:
         self._samples = 0
 
     def run(self, steps: Array) -> Array:
-        """How much of further steps (n, signals) is a jump, n being one or more; NaN is no step."""
-        steps = np.nan_to_num(steps)
+        """How much of further steps (n, signals) is a jump, n being one or more.
+
+        To or from what is no number is no step.
+        """
+        steps = np.where(np.isfinite(steps), steps, 0.0)
         sizes = np.abs(np.concatenate([self._step[None], steps]))
         more = np.maximum(sizes[1:] - sizes[:-1], 0.0)
         number = (self._samples + np.arange(len(steps)))[:, None]
