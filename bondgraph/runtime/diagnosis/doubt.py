@@ -9,7 +9,7 @@ import numpy as np
 from bondgraph.ir.program import law_pace
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
-from bondgraph.runtime.diagnosis.jumps import Jumps
+from bondgraph.runtime.diagnosis.sensor_jumps import Jumps
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 

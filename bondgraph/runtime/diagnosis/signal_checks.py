@@ -16,9 +16,9 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.following import Following
 from bondgraph.runtime.diagnosis.input_moves import InputMoves
-from bondgraph.runtime.diagnosis.jumps import ENOUGH, OUT, far_out
 from bondgraph.runtime.diagnosis.rare_steps import answered, answers, rare_steps, sizes
 from bondgraph.runtime.diagnosis.rows import PAUSE, away
+from bondgraph.runtime.diagnosis.sensor_jumps import ENOUGH, OUT, far_out
 from bondgraph.runtime.diagnosis.standing_encoders import StandingEncoders
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
