@@ -28,6 +28,7 @@ _DOUBLES: dict[Op, Callable[[Expr, list[float]], float | None]] = {
 #: How far off one operation may be, next to its largest term: some roundings of double precision,
 #: as parameters are often rounded decimals of one another.
 _ROUNDING = 1e-15
+_CANCELS = 0.25  # of the sum of its terms, each as large as it is: less is left of few sums
 _BITS = 512  # of the numbers that decide where doubles cannot
 
 
@@ -133,6 +134,18 @@ class Nominal:
 
         other = dict.fromkeys(Op, in_double)
         return Evaluated({**other, Op.NUM: number, Op.ADD: total, Op.MUL: product}, of_symbol)
+
+    def cancels(self, expr: Expr) -> bool:
+        """Whether the terms of a sum nearly cancel at the nominal values.
+
+        What is divided by it is as much larger, and a term that is off by a tenth leaves nothing
+        of the sum, or turns its sign.
+        """
+        value = self.value(expr) if expr.op is Op.ADD else None
+        if value is None:
+            return False
+        sizes = [abs(float(c) * (self.value(arg) or 0.0)) for c, arg in expr.terms]
+        return abs(value) < _CANCELS * sum(sizes)
 
     def size(self, coefficient: Expr) -> float:
         """The nominal value of a coefficient: zero if it vanishes, one if the model gives none."""

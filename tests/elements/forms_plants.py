@@ -24,7 +24,6 @@ TANK = (
     "balances of mass and of energy of a stirred tank: Samantaray & Ould Bouamama, Model-based "
     "Process Supervision"
 )
-SLIP = "v = (a*Cf*delta*u - Jz*u*D(r, 1) - (a**2*Cf + b**2*Cr)*r)/(a*Cf - b*Cr)"
 # rates h, k of the rotor's currents by the stator; the currents solve Rr*x + w*Lr*y = A and
 # Rr*y - w*Lr*x = B, whose determinant Q is never zero
 ROTOR = (
@@ -140,14 +139,17 @@ FORMS = [
         VEHICLE,
         [
             Relation(
-                "forces across the car, its side speed from the torques",
-                f"{SLIP}; F = Cf*(delta - (v + a*r)/u) - Cr*(v - b*r)/u; m*(D(v, 1) + u*r) - F",
-                "m Jz a b Cf Cr delta u r",
+                "the accelerometer; side speed from the front tyre, its force from forces and "
+                "torques on the car",
+                "F = (b*m*ay + Jz*D(r, 1))/(a + b); v = u*(delta - F/Cf) - a*r; ay - u*r - D(v, 1)",
+                "m Jz a b Cf delta u r ay",
             ),
             Relation(
-                "the accelerometer",
-                f"{SLIP}; ay - D(v, 1) - u*r",
-                "Jz a b Cf Cr delta u r ay",
+                # of the side speed by the torques alone nothing is left where a*Cf is b*Cr
+                "law of the rear tyre",
+                "F = (b*m*ay + Jz*D(r, 1))/(a + b); v = u*(delta - F/Cf) - a*r; "
+                "m*ay - F + Cr*(v - b*r)/u",
+                "m Jz a b Cf Cr delta u r ay",
             ),
         ],
     ),

@@ -36,12 +36,19 @@ class _Price(NamedTuple):
     """What is to be avoided in a pivot, the worst first.
 
     It may give a torn variable in terms of others although the row is not linear in it, turn a law
-    around, or divide by signals: so many of them and of their derivatives.
+    around, divide by a difference of parameters that nearly cancels (threshold pivoting: Duff,
+    Erisman and Reid 1986, 5.4), or by signals: so many of them and of their derivatives.
     """
 
     nested: bool
     inverted: bool
+    cancelling: bool
     divisors: int
+
+    @property
+    def last(self) -> bool:
+        """Whether any row without this comes first."""
+        return self.nested or self.cancelling
 
 
 class _Offer(NamedTuple):
@@ -60,7 +67,7 @@ class _Pivot(NamedTuple):
 
 
 _price = attrgetter("price")
-_PLAIN = _Price(nested=False, inverted=False, divisors=0)
+_PLAIN = _Price(nested=False, inverted=False, cancelling=False, divisors=0)
 
 
 class _Tied(NamedTuple):
@@ -163,11 +170,16 @@ class Loops:
     # -------------------------------------------------------- algebraic loops
 
     def solve_algebraic(self) -> None:
-        """Give a value to every torn variable that some row holds without derivative."""
+        """Give a value to every torn variable that some row holds without derivative.
+
+        Rows are freed of derivatives before one is divided by what nearly cancels: they may give
+        the same variable.
+        """
         while self.pending:
             found = self._cheapest()
             dear = found is None or found.offer.price > _PLAIN
-            if self.patient and dear and self._lower(self._tied()[0]):
+            patient = self.patient or (found is not None and found.offer.price.cancelling)
+            if patient and dear and self._lower(self._tied()[0]):
                 continue
             if found is None:
                 return
@@ -187,8 +199,8 @@ class Loops:
         """What rows could give: row after row, if `patient` the cheapest of all of them first."""
         if self.patient:
             return sorted((o for item in self.pending for o in self._in(item)), key=_price)
-        each = [(nested, item) for nested in (False, True) for item in self.pending]
-        return (o for nested, item in each for o in self._in(item) if o.price.nested is nested)
+        each = [(last, item) for last in (False, True) for item in self.pending]
+        return (o for last, item in each for o in self._in(item) if o.price.last is last)
 
     def _in(self, item: _Row) -> list[_Offer]:
         """The torn variables that a row holds without derivative, the cheapest first."""
@@ -204,10 +216,11 @@ class Loops:
             return None
         parts = affine(self.pool, zero, symbol)
         if parts is None:
-            return _Price(len(self._tears(zero)) > 1, True, 0)
+            return _Price(len(self._tears(zero)) > 1, True, False, 0)
         if is_zero(parts[0]):
             return None
-        return _Price(bool(self._tears(parts[0])), False, _signals(parts[0]))
+        cancelling = self.nominal.cancels(parts[0])
+        return _Price(bool(self._tears(parts[0])), False, cancelling, _signals(parts[0]))
 
     def _value(self, zero: Expr, symbol: Expr) -> Expr | None:
         """The value of a torn variable, by iteration where there is no closed form."""

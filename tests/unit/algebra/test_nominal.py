@@ -52,3 +52,14 @@ def test_zero_is_told_where_doubles_have_lost_all_their_digits(steps: int) -> No
     # a failed assert would write the expressions out, which are long
     off, limit = (pool.sub(now, pool.num(x)) for x in (exact, Fraction(6)))
     assert [nominal.vanishes(x) for x in (off, limit, now)] == [True, False, False]
+
+
+def test_a_difference_of_which_less_than_a_quarter_of_its_terms_is_left_cancels() -> None:
+    """2*3 - 5: one of eleven is left. 2*3 - 3: three of nine."""
+    text = "bg 1\nmodel M { param a = 3; Se:U -> R:a\n sensor y = U }"
+    graph = Compilation(Source("m.bg", text)).graph
+    pool, a = graph.pool, next(v.symbol for v in graph.values if v.name == "a")
+    x, nominal = pool.symbol("x", Kind.SENSOR), Nominal(graph)
+    sums = [pool.add((2, a), (1, pool.num(-k))) for k in (5, 3)]
+    others = [pool.add((2, a), (-1, x)), pool.mul(a, x), pool.num(0), a]
+    assert [nominal.cancels(e) for e in (*sums, *others)] == [True, *[False] * 5]

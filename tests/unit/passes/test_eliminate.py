@@ -365,6 +365,40 @@ def test_an_accelerometer_costs_no_isolability(friction: str) -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.parametrize(("rear", "cancels"), [(Q(27, 10), True), (Q(1, 2), False)])
+def test_no_difference_that_nearly_cancels_is_divided_by(rear: Q, cancels: bool) -> None:
+    """A car on two wheels: by the yaw alone the side force in front is over a/b - Cr/Cf.
+
+    By the accelerometer as well it is over the wheelbase, and the car may be neutral: of
+    m ay = -F - G and J r' = b G - a F, G = (J r' - a m ay)/(a + b).
+    """
+    c = compiled(
+        f"""model M {{
+        param m = 1.2; param J = 0.9; param a = 0.8; param b = 1.1; param Cf = 2.3
+        param Cr = {float(rear)}; input delta; input u
+        1:side {{ -> I:m; <- Se:turn = -m*u*yaw.f; -> front; -> rear }}
+        1:yaw {{ -> I:J; -> Df:r }}
+        yaw -> TF:fa {{ f2 = a*f1 }} -> front
+        yaw -> TF:ra {{ f2 = -b*f1 }} -> rear
+        0:front {{ -> R:tf {{ e = Cf*(f/u - delta) }} }}
+        0:rear {{ -> R:tr {{ e = Cr*f/u }} }}
+        sensor ay = der(side.f) + u*yaw.f }}"""
+    )
+    params = {"m": Q(6, 5), "J": Q(9, 10), "a": Q(4, 5), "b": Q(11, 10), "Cf": Q(23, 10)}
+    params["Cr"] = rear
+
+    def force(m, J, a, b, Cf, Cr, delta, u, r, ay):
+        behind = (J * D(r) - a * m * ay) / (a + b)
+        ahead = -m * ay - behind
+        return behind - Cr * (u * (ahead / Cf + delta) - a * r - b * r) / u
+
+    signals = ("delta", "u", "r", "ay")
+    relations = list(c.residuals)
+    found = [is_multiple(relation, force, params, signals) for relation in relations]
+    assert any(found) == cancels
+    assert sorted(relation.orders["r"] for relation in relations) == ([1, 2] if cancels else [2, 2])
+
+
 def test_a_measured_function_stays_unsolved_where_it_is_made_of_more() -> None:
     """Anti-windup by back-calculation: what was limited is used beside the limited value."""
     c = compiled(
