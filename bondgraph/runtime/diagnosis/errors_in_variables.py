@@ -385,11 +385,13 @@ class ErrorsInVariables:
         return np.asarray(share[: len(self.names)] <= _MOST)
 
     def _follows(self, at: Array) -> list[float | None]:
-        """For each residual, the share of what is left that follows the inputs."""
-        value, inputs = self._normal([at])[0][0], self._runs.inputs()
+        """For each residual, the share of what is left that follows the inputs.
+
+        As it is: whitened noise of differences would be all of it, and another law is slow.
+        """
+        left, inputs, same = self._rows([at])[0][0], self._runs.inputs(), np.eye(LAGS + 1)[0]
         return [
-            follows(one, inputs, self._filters[:, r], self._mask[:, r])
-            for r, one in enumerate(value.T)
+            follows(one, inputs, same, self._mask[:, r]) for r, one in enumerate(left.T)
         ]
 
     def disturbed(self, at: Array, residuals: Sequence[bool]) -> tuple[Array, Array]:

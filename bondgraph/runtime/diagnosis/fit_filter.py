@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from bondgraph.runtime.diagnosis.errors_in_variables import Wanted
-from bondgraph.runtime.diagnosis.fitted import Fitted
+from bondgraph.runtime.diagnosis.fitted import Fitted, Left
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.parameter_fit import fit
 from bondgraph.runtime.diagnosis.tuning import FASTEST
@@ -39,6 +39,8 @@ def fit_by_filter(
     filter lets more noise through, and is off by more where samples are few in a period of the
     motion: it is taken only for errors of half the size or less. Or of nine tenths, where much more
     than noise is left: that may be what laws make of filtered signals, which noise does not hide.
+    Nor is one taken with which a law is another and less of it is explained: it only hides behind
+    noise what is left, and a watch with that filter would alarm.
     """
     own = engine.configured(bandwidth=usual)
     best = fit(own, pieces, free, model, noise, progress)
@@ -46,7 +48,21 @@ def fit_by_filter(
         own = engine.configured(bandwidth=faster)
         found = fit(own, pieces, free, model, noise, progress)
         less = _HARDLY if any(x.much for x in best.left) else _LESS
-        if not found.spread < best.spread - math.log(less):
+        if _hides(found, best) or not found.spread < best.spread - math.log(less):
             break
         best = found._replace(faster=True)
     return best
+
+
+def _hides(found: Fitted, before: Fitted) -> bool:
+    """Whether a law is another, and a tenth more of it is not explained, noise apart."""
+    return any(
+        new.wrong and _unexplained(new) > _HARDLY * _unexplained(old)
+        for new, old in zip(found.left, before.left, strict=True)
+    )
+
+
+def _unexplained(left: Left) -> float:
+    """The share of a mean square at the nominal values that is left, both without noise."""
+    before, after = (max(x**2 - left.noise**2, 0.0) for x in (left.before, left.after))
+    return after / before if before else 1.0

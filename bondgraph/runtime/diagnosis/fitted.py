@@ -91,8 +91,15 @@ class Left(NamedTuple):
 
     @property
     def wrong(self) -> bool:
-        """Whether the law is another: nobody knows by how much its parameters are wrong."""
-        return self.much and (self.follows is None or self.follows > _FOLLOWS)
+        """Whether the law is another: nobody knows by how much its parameters are wrong.
+
+        That follows the inputs, so that it is told from noise where it is less than that as well.
+        """
+        if self.follows is None:
+            return self.much
+        if self.nothing:
+            return False
+        return self.follows > _FOLLOWS and self.follows * self.times**2 > _FOLLOWS * MUCH**2
 
 
 class Delay(NamedTuple):

@@ -521,6 +521,21 @@ def test_a_law_that_is_another_makes_no_interval() -> None:
     assert holds(only(fitted(ONE, U=3.0 * y, y=y + noise(0.01))), 3.0)
 
 
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_law_that_is_off_by_less_than_noise_makes_no_interval_either(seed: int) -> None:
+    """U = 3 y + 0.003 y^3: of U - R y twice the noise of the sensor is left at most.
+
+    With the noise alone there would be an interval of 0.0014 Ohm, and no R that is told by it.
+    """
+    y, bent = DRIVE / 3.0, 0.003
+    found = fitted(ONE, U=3.0 * y + bent * y**3, y=y + noise(0.01, seed))
+    (left,) = found.left
+    assert 1.5 < left.times < 2.0 and left.wrong
+    assert only(found).error is None and only(found).doubted
+    straight = fitted(ONE, U=3.0 * y, y=y + noise(0.01, seed))
+    assert not straight.left[0].wrong and holds(only(straight), 3.0)
+
+
 def test_an_offset_of_a_sensor_is_suspected_and_fitted_where_it_is_asked_for() -> None:
     """U = 3 (y - 0.05): what is left is -3 0.05, which an offset of U of -0.15 would leave too."""
     columns = {"U": DRIVE, "y": DRIVE / 3.0 + 0.05 + noise(0.01)}
@@ -692,6 +707,30 @@ def test_where_a_faster_filter_tells_little_more_the_usual_one_stays() -> None:
     """R y = U is told by what moves at 7 and 23 rad/s: of 33 rad/s lets it through."""
     found = fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.01))
     assert found.bandwidth == bandwidth_for(RATE, N)
+
+
+def test_a_faster_filter_that_hides_a_wrong_law_behind_noise_is_not_taken() -> None:
+    """6 v' = F - 1.5 v - 0.3 v^3 where the model has dry friction: it explains less and less.
+
+    Of errors that are reckoned from noise it makes smaller ones, as more noise passes than error.
+    """
+    rate, text = 50.0, """bg 1
+    model M { input F : N; param m = 5 kg +- 20%; param b = 2 N.s/m +- 50%; param c = 3 N +- 100%
+      1:v { <- Se:F; -> I:m; -> R:b; -> R:dry { e = c*tanh(f/0.05) }; -> Df:w } }"""
+    t = np.arange(10_000) / rate
+    force = 6.0 * np.sin(0.5 * t) + 4.0 * np.sin(1.3 * t + 1.0) + 2.0 * np.sin(3.1 * t)
+    speed, now = np.zeros_like(t), 0.0
+    for k, pull in enumerate(force.tolist()):
+        for _ in range(4):
+            now += (pull - 1.5 * now - 0.3 * now**3) / 6.0 / rate / 4.0
+        speed[k] = now
+    speed += 0.01 * speed.std() * np.random.default_rng(1).standard_normal(len(t))
+    c = bondgraph.compile(text=text, rate=rate)
+    log = {"run": Log(t, {"F": force, "w": speed}, {}, {})}
+    found, usual = c.fit(log), c.with_options(bandwidth=1.667).fit(log)
+    assert found.bandwidth == pytest.approx(usual.bandwidth, rel=1e-3)
+    faster = c.with_options(bandwidth=4.0 * found.bandwidth).fit(log)
+    assert faster.spread < usual.spread and faster.left[0].explained < usual.left[0].explained
 
 
 def test_an_encoder_has_no_offset() -> None:
