@@ -9,7 +9,7 @@ from typing import Any
 from bondgraph.ir.signature_matrix import DoubleFaults
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, probabilities
-from bondgraph.runtime.diagnosis.possible import SHOWN, changed, explains
+from bondgraph.runtime.diagnosis.possible import SHOWN, changed, explains, nothing_left
 from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo
 from bondgraph.runtime.monitoring.verdict import (
     Candidate,
@@ -270,7 +270,10 @@ def _alike(pair: ExplainedPair, doubles: DoubleFaults) -> list[tuple[str, ...]]:
 
 
 def candidate(explained: Explained, chance: float) -> Candidate:
-    """A fault with the change that fits best: of the machine where it has changed."""
+    """A fault with the change that fits best: of the machine where it has changed.
+
+    Of a sensor of which perhaps nothing is right nobody knows how many times too large it is.
+    """
     held = explained.hypothesis.held
     if held is not None:  # what acts is nothing of what is told, or the other position
         if held.stays:
@@ -281,7 +284,8 @@ def candidate(explained: Explained, chance: float) -> Candidate:
         size, unit = (-100.0, "%") if lost else (None, "")
         return Candidate(explained.fault, size, unit, round(chance, 4))
     size, unit = _size(explained.hypothesis, explained.change)
-    return Candidate(explained.fault, size, unit, round(chance, 4))
+    told = None if nothing_left(explained) else size
+    return Candidate(explained.fault, told, unit, round(chance, 4))
 
 
 def _size(hypothesis: Hypothesis, change: float) -> tuple[float, str]:

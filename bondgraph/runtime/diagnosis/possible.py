@@ -59,11 +59,23 @@ def changed(hypothesis: Hypothesis, change: float) -> float:
     >>> changed(sensor, 0.5), changed(supply, 0.5)
     (1.0, -0.5)
     """
-    size = -change if hypothesis.turned else change
     if hypothesis.kind != "gain" or hypothesis.turned:
-        return size
-    left = 1.0 - size  # told is true/left: nothing is left of what is told for no reason
-    return size / left if abs(left) > 1e-3 else math.copysign(1e3, left)
+        return -change if hypothesis.turned else change
+    left = 1.0 - change  # told is true/left
+    return change / left if abs(left) > 1e-3 else math.copysign(1e3, left)
+
+
+def nothing_left(one: Explained) -> bool:
+    """Whether what a sensor says may have nothing of what is there: no gain makes one of the other.
+
+    >>> from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+    >>> sensor = Hypothesis("ay", "gain", "", 0.3, turned=False)
+    >>> told = [Explained("ay", 9.0, sensor, change, deviation=0.02) for change in (0.9, 0.96)]
+    >>> [nothing_left(one) for one in told]
+    [False, True]
+    """
+    gain = one.hypothesis.kind == "gain" and not one.hypothesis.turned
+    return gain and abs(1.0 - one.change) <= _BEYOND * one.deviation
 
 
 def _mean_above(z: float) -> float:

@@ -7,7 +7,7 @@ import pytest
 
 import bondgraph
 from bondgraph.ir.signature_matrix import DoubleFaults
-from bondgraph.runtime.diagnosis.hypotheses import hypotheses
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, hypotheses
 from bondgraph.runtime.diagnosis.isolation import Explained
 from bondgraph.runtime.diagnosis.naming import candidate, update
 from bondgraph.runtime.diagnosis.two_at_once import OneOrTwo
@@ -47,6 +47,28 @@ def test_a_class_says_whether_it_may_be_two_others() -> None:
     assert perhaps.message.endswith("; or two others at once")
     more = update(5.0, 4.0, {"r1": 2.0}, (), [explained("k", 90.0)], OneOrTwo(False), doubles)
     assert more.message.startswith("no single fault explains this since 4.000 s: several at once")
+
+
+@pytest.mark.parametrize(
+    ("change", "deviation", "size"),
+    [
+        (0.5, 0.1, 100.0),  # twice what is there: five deviations from nothing that would be right
+        (0.95, 0.02, None),  # twenty times, or minus a hundred times, or anything
+        (1.05, 0.02, None),
+        (0.95, 0.01, 1900.0),
+        (1.5, 0.1, -300.0),  # wired the wrong way round
+    ],
+)
+def test_how_many_times_too_large_a_reading_is_is_told_where_something_of_it_is_right(
+    change: float, deviation: float, size: float | None
+) -> None:
+    """What is there is 1 - change of what is told."""
+    sensor = Hypothesis("a", "gain", "", 0.3, turned=False)
+    found = candidate(Explained("a", 9.0, sensor, change, deviation), 1.0)
+    assert found.unit == "%"
+    assert found.size == (None if size is None else pytest.approx(size))
+    supply = Hypothesis("U", "gain", "", 0.3, turned=True)  # an input: the machine's own share
+    assert candidate(Explained("U", 9.0, supply, change, deviation), 1.0).size is not None
 
 
 def test_the_gain_of_a_thermometer_is_told_in_kelvin_and_of_a_current_in_percent() -> None:
