@@ -191,3 +191,24 @@ def test_the_window_is_the_integral_of_a_bump(smooth: int) -> None:
             size = np.abs(curve.deriv(j)(np.linspace(0, 1, 50))).max()
             found = _at(_shape(smooth, j, u, rest), at)
             assert found == pytest.approx(curve.deriv(j)(at), abs=1e-9 * size)
+
+
+@pytest.mark.parametrize(("counts", "fades"), [("", True), (" counts 1000/turn", False)])
+def test_a_position_fades_in_under_a_window_but_counts_that_are_differentiated_wait(
+    counts: str, fades: bool
+) -> None:
+    """k i = b w of a shaft without inertia: counts would have to become a position for that."""
+    text = f"""bg 1
+model M {{
+    input on : bool
+    1:coil when on {{ <- Se:U; -> R:R = 1 Ohm; -> GY:k -> shaft; -> Df:i }}
+    param k = 3 N.m/A
+    1:shaft {{ -> R:b = 2 N.m.s/rad }}
+    sensor angle : rad = int(shaft.f){counts}
+}}
+"""
+    program = Compilation(Source("m.bg", text)).program
+    (opening,) = program.openings
+    windows = [s.target.name for s in program.step if "phi" in s.target.name]
+    assert opening.modes == ("on",)
+    assert bool(windows) == fades

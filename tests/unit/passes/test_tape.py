@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from random import Random
 from types import SimpleNamespace
@@ -147,5 +148,13 @@ def test_without_numbers_nothing_is_known_of_sizes() -> None:
     assert made.seen(_builder(), 100.0, 0.01) == (
         f"it has derivatives up to order {made.statement.length - 1} and no numbers"
     )
-    known = _made(_random_tape(1), _builder())
-    assert known.low is not None and known.low.shape == (9, 5)
+
+
+def test_low_orders_are_kept_in_units_of_the_highest_frequency() -> None:
+    """Of 100 samples a second: 2 pi times 10 of them; two orders more than are asked for."""
+    tape = _random_tape(1)
+    low = _made(tape, _builder()).low
+    assert low is not None and low.shape == (9, 5)
+    for found, polynomial in zip(low.tolist(), _polynomials(tape, 20), strict=True):
+        expected = [float(x) * (2.0 * math.pi * 10.0) ** k for k, x in enumerate(polynomial[:5])]
+        assert found == pytest.approx(expected)
