@@ -10,9 +10,9 @@ from numpy.polynomial import Polynomial
 
 import bondgraph
 from bondgraph.compilation import Compilation
-from bondgraph.ir.expr import Kind
+from bondgraph.ir.expr import Expr, Kind, Pool, topological
 from bondgraph.ir.program import Const, Expression, Function, Product, Ref, Sum
-from bondgraph.passes.lowering.jumps import Jumps
+from bondgraph.passes.lowering.jumps import Jumps, _linear
 from bondgraph.passes.lowering.opening import _shape
 from bondgraph.text.source import Source
 from tests.sampled import Sampled
@@ -212,3 +212,22 @@ model M {{
     windows = [s.target.name for s in program.step if "phi" in s.target.name]
     assert opening.modes == ("on",)
     assert bool(windows) == fades
+
+
+def test_a_law_of_derivatives_that_jump_is_linear_where_each_stands_alone() -> None:
+    """In a sum or beside factors that go on; not twice in a product, in a power or a function."""
+    p = Pool()
+    x, y, k = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR), p.symbol("k", Kind.PARAM)
+    dx, dy = p.der(x), p.der(y)
+    levels: dict[Expr, float] = {x: 1, y: 1, k: inf, dx: 0, dy: 0, p.der(dx): -1}
+
+    def linear(expr: Expr) -> bool:
+        for node in topological([expr]):
+            levels.setdefault(node, min((levels[a] for a in node.args), default=inf))
+        return _linear(expr, levels)
+
+    assert linear(p.add((2, dx), (-1, dy), (1, x))) and linear(p.mul(k, dx, p.power(x, 2)))
+    assert linear(p.fn("sin", p.mul(x, k))) and linear(p.mul(k, p.add((1, dx), (1, y))))
+    for bent in (p.mul(dx, dy), p.power(dx, 2), p.power(dx, -1), p.fn("sin", dx), p.der(dx)):
+        assert not linear(bent)
+        assert not linear(p.add((1, dy), (1, bent))) and not linear(p.mul(k, bent))
