@@ -9,8 +9,10 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
-from bondgraph.algebra.numeric import Valued, evaluate
+from bondgraph.algebra.numeric import Valued, evaluate, nominal
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.text.source import Source
 
 NAMES = ("a", "b", "c", "d")
 
@@ -37,6 +39,29 @@ def draw(seed: int) -> tuple[Expr, sp.Expr, dict[str, float]]:
                 parts.append((pool.fn("tanh", pool.add((1, x), (1, y))), sp.tanh(x_ + y_)))
     total = pool.add(*[(1, e) for e, _ in parts])
     return total, sum((s for _, s in parts), sp.Integer(0)), values
+
+
+def test_values_that_are_written_by_others_have_numbers_in_whatever_order_they_stand() -> None:
+    """Exact while they are rational; of one without a value nothing has a number."""
+    text = """bg 1
+model M {
+    param R = 2*k
+    param k = c/3
+    const c = 4
+    param w = sqrt(c + 1)
+    param given : 1
+    param lost = given*2
+    1:s { <- Se:U; -> R:one = R; -> R:two = w; -> R:three = lost; -> I:L(p0 = 3*c) = k }
+    s -> Df:i
+}
+"""
+    found = nominal(Compilation(Source("m.bg", text)).graph)
+    exact = {"c": Fraction(4), "k": Fraction(4, 3), "R": Fraction(8, 3)}
+    assert {name: found[name] for name in exact} == exact
+    assert all(isinstance(found[name], Fraction) for name in exact)
+    assert found["w"] == pytest.approx(math.sqrt(5.0))
+    assert not {"given", "lost"} & set(found)
+    assert 12 in found.values()  # where the momentum begins
 
 
 @pytest.mark.parametrize("seed", range(8))
