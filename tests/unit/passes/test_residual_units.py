@@ -22,6 +22,7 @@ _GRAPH = compiled(_TEXT).graph
 p = _GRAPH.pool
 a, b = (next(i.symbol for i in _GRAPH.inputs if i.name == name) for name in "ab")
 odd, start = p.symbol("odd", Kind.PARAM), p.symbol("x0", Kind.INITIAL)
+reading = next(s.symbol for s in _GRAPH.sensors)
 less = p.compare("<", a, b)
 
 
@@ -33,6 +34,7 @@ less = p.compare("<", a, b)
         (p.power(b, 2), "A^2"),
         (p.div(a, b), "Ohm"),
         (p.mul(p.num(3), a), "V"),
+        (p.scale(2, reading), "A"),
         (p.num(3), "1"),
         (p.der(a), "V/s"),
         (p.integral(b, start), "C"),
