@@ -6,9 +6,9 @@ import pytest
 
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, Spelling, suffixes
 from bondgraph.backends.target import load
-from bondgraph.ir.program import Field
+from bondgraph.ir.program import Choice, Const, Expression, Field, Function, Mode
 from tests.unit.backends import programs
-from tests.unit.backends.programs import known, residual
+from tests.unit.backends.programs import known, plus, put, ref, residual
 
 
 def test_members_of_the_derivatives_are_all_different() -> None:
@@ -76,3 +76,27 @@ def test_an_encoder_has_a_memory_in_each_block_that_reads_it() -> None:
     assert [found.counted(block) for block in found.blocks] == [
         [("q_r1", "q")], [("q_r2", "q"), ("p", "p")],
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("value", "unheard"),
+    [
+        (plus(ref("known:y"), ref("known:z")), []),
+        (Choice(Mode("on"), ref("known:y"), ref("known:z")), ["y", "z"]),
+        (plus(ref("known:y"), Choice(Mode("on"), ref("known:z"), Const(0.0))), ["z"]),
+        (plus(ref("known:y"), Function("tanh", (ref("known:z"),))), ["z"]),
+        (plus(ref("known:y"), ref("increment:q")), []),  # counts are never NaN
+    ],
+)
+def test_a_signal_is_unheard_that_may_be_no_number_while_the_residual_is_one(
+    value: Expression, unheard: list[str]
+) -> None:
+    """What a residual is a sum of makes it NaN; a mode or counts are always numbers."""
+    statement = put("residual:r1", value)
+    program = programs.program(
+        "M", (residual("r1"),), first=(statement,), step=(statement,),
+        knowns=(known("y"), known("z"), known("on", kind="mode"), known("q", counts=24.0)),
+    )  # fmt: skip
+    found = Spelling(program, load("c"))
+    (block,) = found.blocks
+    assert found.unheard(block) == unheard
