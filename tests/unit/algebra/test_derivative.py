@@ -16,7 +16,7 @@ import pytest
 
 from bondgraph.algebra.derivative import Jets, TooManyOperations, differentiate, operations, partial
 from bondgraph.algebra.numeric import evaluate
-from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.ir.expr import Expr, Kind, Pool, Root
 
 p = Pool()
 x, y = (p.symbol(n, Kind.SENSOR) for n in "xy")
@@ -157,4 +157,13 @@ def test_operations_are_counted_once_where_they_are_shared() -> None:
     assert operations([both]) == 2
     assert operations([sine]) == 3
     assert operations([plus(sine, x), plus(sine, y)]) == 7
+
+
+def test_a_root_counts_as_ten_evaluations_of_its_equation() -> None:
+    """Those are about the steps that Newton's method takes."""
+    u, c = p.symbol("u", Kind.UNKNOWN), p.symbol("c", Kind.UNKNOWN)
+    zero = p.sub(p.add((1, u), (1, p.power(u, 3))), c)
+    node = p.root(Root("i", zero, u, (c,), u, True, Fraction(0)), x)
+    assert operations([node]) == 10 * operations([zero]) > 0
+    assert operations([plus(node, y)]) == 10 * operations([zero]) + 2
     assert operations([p.der(both)]) == 0

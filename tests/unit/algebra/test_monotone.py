@@ -14,7 +14,7 @@ from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.interpreter import newton
 from bondgraph.algebra.monotone import direction, slope_range
 from bondgraph.algebra.numeric import evaluate
-from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.ir.expr import Expr, Kind, Pool, Root
 
 p = Pool()
 x = p.symbol("x", Kind.FLOW)
@@ -168,3 +168,21 @@ def test_the_slopes_of_a_table_are_those_between_its_points(
     assert direction(p, p.add((1, law), (int(-low), x)), x, lambda _: None) is None
     assert direction(p, p.add((1, law), (int(1 - low), x)), x, lambda _: None) == 1
     assert direction(p, p.add((1, law), (int(-1 - high), x)), x, lambda _: None) == -1
+
+
+@pytest.mark.parametrize(("rising", "sign"), [(True, 1), (False, -1)])
+def test_an_inner_unknown_grows_with_what_its_equation_says(rising: bool, sign: int) -> None:
+    """u + u^3 = c or -u - u^3 = c: of c, and of what that grows or falls with; of nothing else."""
+    u, c, d = (p.symbol(name, Kind.UNKNOWN) for name in "ucd")
+    zero = p.sub(p.add((sign, u), (sign, p.power(u, 3))), c)
+    root = Root(f"R{sign}", zero, u, (c,), u, rising, Fraction(0))
+
+    def grows(law: Expr) -> int | None:
+        return direction(p, law, x, lambda symbol: 1.0)
+
+    assert grows(p.root(root, x)) == sign and grows(p.root(root, p.scale(-2, x))) == -sign
+    assert grows(plus(p.root(root, y), x)) == 1  # what does not hold x does nothing
+    assert grows(p.root(root, p.power(x, 2))) is None
+    both = Root(f"S{sign}", p.sub(zero, d), u, (c, d), u, rising, Fraction(0))
+    assert grows(p.root(both, x, p.power(x, 3))) == sign
+    assert grows(p.root(both, x, p.neg(x))) is None

@@ -9,8 +9,10 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
-from bondgraph.algebra.numeric import Valued, evaluate
+from bondgraph.algebra.numeric import Valued, declared_zero, evaluate, nominal
+from bondgraph.compilation import Compilation
 from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.text.source import Source
 
 NAMES = ("a", "b", "c", "d")
 
@@ -37,6 +39,29 @@ def draw(seed: int) -> tuple[Expr, sp.Expr, dict[str, float]]:
                 parts.append((pool.fn("tanh", pool.add((1, x), (1, y))), sp.tanh(x_ + y_)))
     total = pool.add(*[(1, e) for e, _ in parts])
     return total, sum((s for _, s in parts), sp.Integer(0)), values
+
+
+def test_values_that_are_written_by_others_have_numbers_in_whatever_order_they_stand() -> None:
+    """Exact while they are rational; of one without a value nothing has a number."""
+    text = """bg 1
+model M {
+    param R = 2*k
+    param k = c/3
+    const c = 4
+    param w = sqrt(c + 1)
+    param given : 1
+    param lost = given*2
+    1:s { <- Se:U; -> R:one = R; -> R:two = w; -> R:three = lost; -> I:L(p0 = 3*c) = k }
+    s -> Df:i
+}
+"""
+    found = nominal(Compilation(Source("m.bg", text)).graph)
+    exact = {"c": Fraction(4), "k": Fraction(4, 3), "R": Fraction(8, 3)}
+    assert {name: found[name] for name in exact} == exact
+    assert all(isinstance(found[name], Fraction) for name in exact)
+    assert found["w"] == pytest.approx(math.sqrt(5.0))
+    assert not {"given", "lost"} & set(found)
+    assert 12 in found.values()  # where the momentum begins
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -83,3 +108,35 @@ def test_rational_values_stay_exact() -> None:
     a = p.symbol("a", Kind.PARAM)
     third = p.div(p.add((1, a), (1, p.one)), p.num(3))
     assert evaluate(third, {"a": Fraction(1, 7)}) == Fraction(8, 21)
+
+
+@pytest.mark.parametrize(("one", "other"), [(1, 2), (2, 2), (3, 2)])
+def test_conditions_of_numbers_hold_or_not(one: int, other: int) -> None:
+    p = Pool()
+    a, b = p.symbol("a", Kind.PARAM), p.symbol("b", Kind.PARAM)
+    less, most = p.compare("<", a, b), p.compare("<=", a, b)
+    for condition, holds in (
+        (less, one < other),
+        (p.logic("not", less), one >= other),
+        (p.logic("and", most, p.logic("not", less)), one == other),
+        (p.logic("or", less, p.compare("<", b, a)), one != other),
+    ):
+        values = {"a": Fraction(one), "b": Fraction(other)}
+        assert evaluate(p.choose(condition, p.num(7), p.num(5)), values) == (7 if holds else 5)
+
+
+def test_faults_are_declared_zero_by_their_value_or_as_such() -> None:
+    """A constant is no fault; what has no number is not known to be zero."""
+    text = """bg 1
+model M {
+    param leak = 0
+    param also = 2*leak
+    param R = 3
+    param given : 1
+    const none = 0
+    1:s { <- Se:U; -> R:one = R; -> R:two = leak + none; -> R:three = given + also; -> Df:i }
+}
+"""
+    graph = Compilation(Source("m.bg", text)).graph
+    assert set(declared_zero(graph, nominal(graph))) == {"leak", "also"}
+    assert "R" in declared_zero(graph, {"R": 0})

@@ -14,6 +14,7 @@ from bondgraph.backends.emit import emit
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from tests.unit.backends import programs
+from tests.unit.backends.programs import put, ref
 
 _EACH = pytest.mark.parametrize("make", programs.ALL, ids=lambda m: m.__name__)
 
@@ -85,3 +86,17 @@ def test_a_parameter_without_a_number_has_to_be_given(
     for field in program.params:
         expected = 0.5 if field.default is None else field.default
         assert getattr(made, names[field.name]) == expected
+
+
+@pytest.mark.parametrize("beyond", [-1, 0, 1])
+def test_a_condition_is_broken_only_where_it_is_wider_than_the_page(beyond: int) -> None:
+    width = load("python").width
+    around = len("        if not math.isfinite(p.):")
+    name = "R" * (width + beyond - around)
+    program = programs.motor()
+    field = program.params[0]._replace(name=name)
+    reads = put("coef:R", ref(f"param:{name}"), "R")
+    program = program._replace(params=(field,), configure=(reads, *program.configure[2:]))
+    text = next(a.text for a in emit(program, ("python",)) if a.path == "motor.py")
+    assert (f"        if not math.isfinite(p.{name}):\n" in text) == (beyond <= 0)
+    assert max(map(len, text.splitlines())) <= width

@@ -44,6 +44,7 @@ def test_signs_of_latex() -> None:
         p.fn("ssq", p.sub(x, y)): r"\left(x - y\right)\left|x - y\right|",
         p.fn("log", p.fn("asin", x)): r"\ln\left(\arcsin\left(x\right)\right)",
         p.fn("table:cell_a.csv", x): r"\mathrm{cell\_a.csv}\left(x\right)",
+        p.fn("delay", x, p.num(2)): r"\mathrm{delay}\left(x, 2\,\mathrm{s}\right)",
         p.compare("<=", x, y): r"x \le y",
     }
     assert {latex(e): text for e, text in cases.items()} == {t: t for t in cases.values()}

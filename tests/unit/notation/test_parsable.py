@@ -10,7 +10,7 @@ import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.ir.expr import Expr, Kind, Pool, Root
 from bondgraph.notation.parsable import DEEP, Names, Parsable, parsable
 
 
@@ -81,6 +81,69 @@ def test_functions_mean_what_they_mean(value: float) -> None:
     for expr, expected in cases.items():
         found = read(parsable(pool, expr, names)).subs(sympy.Symbol("x"), sympy.Rational(value))
         assert float(found) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("x", [1, 2, 3])
+def test_conditions_mean_what_they_mean(x: int) -> None:
+    pool, y, _, names = symbols()
+    one, two = pool.one, pool.num(2)
+    cases = {
+        pool.compare("==", y, two): x == 2,
+        pool.compare("<", y, two): x < 2,
+        pool.compare("<=", y, two): x <= 2,
+        pool.logic("or", pool.compare("<", y, two), pool.compare("<", two, y)): x != 2,
+        pool.logic("and", pool.compare("<", one, y), pool.compare("<=", y, two)): x == 2,
+        pool.compare("<", pool.add((1, y), (1, y)), pool.mul(y, y)): 2 * x < x * x,
+    }
+    for condition, holds in cases.items():
+        text = parsable(pool, pool.choose(condition, pool.num(7), pool.num(5)), names)
+        found = read(text).subs(sympy.Symbol("x"), x)
+        assert found == (7 if holds else 5), text.expr
+
+
+def test_text_that_runs_calls_what_sympy_has_no_inverse_of() -> None:
+    """And tells which functions have to be there, by what an expression calls them."""
+    pool, x, _, names = symbols()
+    pool.tables["a b.csv"] = ((Fraction(-1), Fraction(2)), (Fraction(1), Fraction(4)))
+    called: dict[str, str] = {}
+    third = pool.num(Fraction(1, 3))
+    for expr, text in (
+        (pool.fn("ssq", x), "ssq(x)"),
+        (pool.fn("ssqrt", x), "ssqrt(x)"),
+        (pool.fn("cbrt", x), "cbrt(x)"),
+        (pool.fn("table:a b.csv", x), "table_a_b_csv(x)"),
+        (pool.fn("table:a b.csv'", x), "table_a_b_csv_inverse(x)"),
+        (pool.fn("table:a b.csv", pool.fn("abs", x)), "table_a_b_csv(Abs(x))"),
+        (pool.fn("pow", x, third), "x**Rational(1, 3)"),
+        (pool.fn("max", x, third), "Max(x, Rational(1, 3))"),
+        (pool.scale(3, x), "3*x"),
+    ):
+        assert parsable(pool, expr, names, functions=called).expr == text
+    assert called == {
+        "ssq": "ssq",
+        "ssqrt": "ssqrt",
+        "cbrt": "cbrt",
+        "table:a b.csv": "table_a_b_csv",
+        "table:a b.csv'": "table_a_b_csv_inverse",
+    }
+
+
+def test_two_unknowns_of_one_name_have_a_name_and_an_equation_each() -> None:
+    """x + x^3 = i and 2 x = i, whose unknowns are both called x."""
+    pool, i, _, _ = symbols()
+    u, c = pool.symbol("u", Kind.UNKNOWN), pool.symbol("c", Kind.UNKNOWN)
+    cubic = pool.sub(pool.add((1, u), (1, pool.power(u, 3))), c)
+    one = pool.root(Root("y", cubic, u, (c,), u, True, Fraction(1, 2)), i)
+    two = pool.root(Root("y", pool.sub(pool.scale(2, u), c), u, (c,), u, True, Fraction(0)), i)
+    names = Names(["x"])
+    text = parsable(pool, pool.add((1, one), (10, two)), names)
+    cubed, doubled = sorted(text.implicit, key=lambda row: "**3" not in row[1])
+    assert cubed[0] != doubled[0] and {cubed[0], doubled[0]} < set(text.symbols)
+    assert {names.known_as[name] for name, _, _ in text.implicit} == {"y"}
+    assert (cubed[2], doubled[2]) == (0.5, 0.0)
+    for (name, zero, _), value in ((cubed, 3 + 3**3 - 2), (doubled, 2 * 3 - 2)):
+        assert eval(zero, {}, {name: 3, "x": 2}) == value
+    assert eval(text.expr, {}, {cubed[0]: 3, doubled[0]: 5}) == 3 + 10 * 5
 
 
 def at(pool: Pool, expr: Expr, **values: Fraction) -> float:

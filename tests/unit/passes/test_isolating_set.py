@@ -12,6 +12,8 @@ from bondgraph.algebra.in_mode import in_mode
 from bondgraph.cli.main import main
 from bondgraph.compilation import Compilation
 from bondgraph.compile_options import Options
+from bondgraph.ir.expr import Kind, Pool
+from bondgraph.passes.analysis.isolating_set import _idle, _without
 from bondgraph.text.source import Source
 from tests.real.draw import of_seed
 from tests.unit.passes.relations import is_multiple
@@ -140,3 +142,32 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     result = json.loads(capsys.readouterr().out)
     assert len(result["groups"]) == len(result["best"]) == 5
     assert [a.get("free_of") for a in result["arrs"]][:3] == [None, None, "k"]
+
+
+def test_a_relation_is_idle_that_says_nothing_in_some_mode() -> None:
+    """On either side of a switch, and of a switch inside of that."""
+    p = Pool()
+    one, two = (p.symbol(name, Kind.MODE) for name in ("one", "two"))
+    x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
+    assert not _idle(x, p) and not _idle(p.choose(one, x, y), p)
+    assert _idle(p.choose(one, x, p.zero), p) and _idle(p.choose(one, p.zero, x), p)
+    inner = p.choose(two, p.zero, y)
+    assert _idle(p.choose(one, x, inner), p) and _idle(p.choose(one, inner, x), p)
+    assert not _idle(p.add((1, inner), (1, x)), p)  # with what else there is it says something
+
+
+def test_a_relation_without_a_fault_is_zero_where_it_holds_it_and_else_what_it_was() -> None:
+    p = Pool()
+    one, two = (p.symbol(name, Kind.MODE) for name in ("one", "two"))
+    x, fault = p.symbol("x", Kind.SENSOR), p.symbol("R", Kind.PARAM)
+    product = p.mul(fault, x)
+    assert _without(fault, [x, product], [one], p) == [x, product]
+    assert _without(fault, [product, x], [], p) == [p.zero, p.zero]
+    both = [p.choose(one, product, x), p.choose(one, x, p.add((1, product), (1, x)))]
+    assert _without(fault, both, [one], p) == [
+        p.choose(one, p.zero, x), p.choose(one, p.zero, p.add((1, product), (1, x))),
+    ]  # fmt: skip
+    nested = p.choose(one, p.choose(two, product, x), p.one)
+    assert _without(fault, [nested], [one, two], p) == [
+        p.choose(one, p.choose(two, p.zero, x), p.one)
+    ]

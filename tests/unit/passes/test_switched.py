@@ -10,9 +10,9 @@ from numpy.polynomial import Polynomial
 
 import bondgraph
 from bondgraph.compilation import Compilation
-from bondgraph.ir.expr import Kind
+from bondgraph.ir.expr import Expr, Kind, Pool, topological
 from bondgraph.ir.program import Const, Expression, Function, Product, Ref, Sum
-from bondgraph.passes.lowering.jumps import Jumps
+from bondgraph.passes.lowering.jumps import Jumps, _linear
 from bondgraph.passes.lowering.opening import _shape
 from bondgraph.text.source import Source
 from tests.sampled import Sampled
@@ -191,3 +191,43 @@ def test_the_window_is_the_integral_of_a_bump(smooth: int) -> None:
             size = np.abs(curve.deriv(j)(np.linspace(0, 1, 50))).max()
             found = _at(_shape(smooth, j, u, rest), at)
             assert found == pytest.approx(curve.deriv(j)(at), abs=1e-9 * size)
+
+
+@pytest.mark.parametrize(("counts", "fades"), [("", True), (" counts 1000/turn", False)])
+def test_a_position_fades_in_under_a_window_but_counts_that_are_differentiated_wait(
+    counts: str, fades: bool
+) -> None:
+    """k i = b w of a shaft without inertia: counts would have to become a position for that."""
+    text = f"""bg 1
+model M {{
+    input on : bool
+    1:coil when on {{ <- Se:U; -> R:R = 1 Ohm; -> GY:k -> shaft; -> Df:i }}
+    param k = 3 N.m/A
+    1:shaft {{ -> R:b = 2 N.m.s/rad }}
+    sensor angle : rad = int(shaft.f){counts}
+}}
+"""
+    program = Compilation(Source("m.bg", text)).program
+    (opening,) = program.openings
+    windows = [s.target.name for s in program.step if "phi" in s.target.name]
+    assert opening.modes == ("on",)
+    assert bool(windows) == fades
+
+
+def test_a_law_of_derivatives_that_jump_is_linear_where_each_stands_alone() -> None:
+    """In a sum or beside factors that go on; not twice in a product, in a power or a function."""
+    p = Pool()
+    x, y, k = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR), p.symbol("k", Kind.PARAM)
+    dx, dy = p.der(x), p.der(y)
+    levels: dict[Expr, float] = {x: 1, y: 1, k: inf, dx: 0, dy: 0, p.der(dx): -1}
+
+    def linear(expr: Expr) -> bool:
+        for node in topological([expr]):
+            levels.setdefault(node, min((levels[a] for a in node.args), default=inf))
+        return _linear(expr, levels)
+
+    assert linear(p.add((2, dx), (-1, dy), (1, x))) and linear(p.mul(k, dx, p.power(x, 2)))
+    assert linear(p.fn("sin", p.mul(x, k))) and linear(p.mul(k, p.add((1, dx), (1, y))))
+    for bent in (p.mul(dx, dy), p.power(dx, 2), p.power(dx, -1), p.fn("sin", dx), p.der(dx)):
+        assert not linear(bent)
+        assert not linear(p.add((1, dy), (1, bent))) and not linear(p.mul(k, bent))

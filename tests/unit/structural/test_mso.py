@@ -198,3 +198,15 @@ def test_a_long_search_tells_how_far_it_is() -> None:
     assert list(shares) == sorted(set(shares)) and shares[0] > 0.0
     assert shares[-1] == pytest.approx(1.0)
     assert list(counts) == sorted(counts) and counts[-1] == 126
+
+
+def test_an_analysis_tells_how_far_it_is_half_of_it_by_its_search() -> None:
+    """And by how many sets are wanted, where that is nearer; behind it every hundredth set."""
+    model, heard = model_of([{0, 1, 2}] * 9), list[tuple[float, int]]()
+    analyse(model, progress=lambda done, n: heard.append((done, n)))
+    assert heard[-3:] == [(pytest.approx(0.5), 126), (0.5, 126), (0.5 + 100 / 126 / 2, 126)]
+    assert heard == sorted(heard)
+    cut = list[tuple[float, int]]()
+    analyse(model, 40, progress=lambda done, n: cut.append((done, n)))
+    assert cut[-1] == (0.5, 40) and len(cut) > 1
+    assert all(share >= count / 40 / 2 for share, count in cut[:-1])

@@ -33,6 +33,20 @@ def test_what_looks_like_two_at_once_is_told_by_rank() -> None:
     )
 
 
+@pytest.mark.parametrize("ahead", [0.0, 3.0, 5.0, 2000.0])
+def test_pairs_are_told_with_their_share_of_the_probability(ahead: float) -> None:
+    """As e to the evidence; those below a fiftieth are not told."""
+    one, other = pair_of("R", "f", 0.6, -0.5, -0.2), pair_of("R", "k", 0.6, 0.3, 0.1)
+    pairs = [one._replace(whole=ahead + 40.0), other._replace(whole=40.0)]
+    single = [explained("R", 9.0)._replace(left=30.0)]
+    verdict = update(5.0, 4.0, {"r1": 2.0}, (), single, OneOrTwo(False, pairs))
+    less = np.exp(-ahead) / (1.0 + np.exp(-ahead))
+    assert [pair.faults[1] for pair in verdict.pairs] == (["f", "k"] if less > 0.02 else ["f"])
+    for pair, chance in zip(verdict.pairs, (1.0 - less, less), strict=False):
+        assert pair.probability == pytest.approx(chance, abs=1e-4)
+    assert verdict.pairs[0].sizes == (0.5, 0.2)
+
+
 def test_a_class_says_whether_it_may_be_two_others() -> None:
     doubles = DoubleFaults((("R", "U"), ("f",), ("k",)), ((), (), ((0, 1),)), "")
     said = {

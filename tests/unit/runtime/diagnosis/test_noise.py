@@ -69,6 +69,15 @@ def test_numbers_that_parameters_have_taken_are_given_back() -> None:
     assert np.mean(plain) == pytest.approx(0.8, rel=0.03)
 
 
+@pytest.mark.parametrize("count", [50, 4000])
+def test_rows_that_are_not_centred_deviate_from_zero(count: int) -> None:
+    """By their mean and by their noise; no degree of freedom goes for a mean."""
+    values = np.random.default_rng(9).normal(0.5, 1.0, count)
+    found = noise(values, centred=False)
+    assert found.mean == 0.0 and noise(values).mean == pytest.approx(values.mean())
+    assert found.sigma == pytest.approx(math.sqrt(np.mean(values**2)))
+
+
 def test_of_nothing_nothing_is_known() -> None:
     assert noise(np.full(5, math.nan)).sigma == math.inf
     assert noise(np.full(20, 3.0)).sigma == 0.0

@@ -42,6 +42,8 @@ def test_no_signal_more_than_doubles_beside_another_fault() -> None:
 
     assert [can(sensor, change) for change in (0.5, 0.9, -0.9)] == [True, False, True]
     assert [can(command, change) for change in (1.0, 2.0, -0.9)] == [True, False, True]
+    # by a tenth more: laws are rough
+    assert [can(command, change) for change in (1.1, -1.1, 1.11, -1.11)] == [True] * 2 + [False] * 2
 
 
 def test_two_at_once_are_a_thousand_times_as_rare_as_one() -> None:

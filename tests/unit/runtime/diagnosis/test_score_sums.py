@@ -93,6 +93,21 @@ def test_what_swings_is_seen_where_sums_of_the_residual_see_nothing() -> None:
     assert sums.sums[0].any() and sums.high(limits).all()  # that is more of it, not less
 
 
+@pytest.mark.parametrize("unit", [0.01, 20.0])
+def test_the_unit_of_a_residual_makes_no_difference(unit: float) -> None:
+    """Its value, its noise, its bound and what a fault does are all so many times as large."""
+    draw = np.random.default_rng(6).standard_normal(300)
+    values = 0.8 * _SWING[:300] + draw
+    found = []
+    for size in (1.0, unit):
+        limits = np.array([Limit(size, 1.0, 4.0, _TOP, unit=size)])
+        sums = _sums(100.0, learns=False)
+        rows = [_row(size * values[k : k + 1], size * _SWING[k : k + 1], bound=0.1 * size)
+                for k in range(300)]  # fmt: skip
+        found.append([bool(sums.add(row, limits, _NOTHING).any()) for row in rows])
+    assert any(found[0]) and found[0] == found[1]
+
+
 def test_what_a_tolerated_parameter_may_do_is_none_of_it() -> None:
     # a deviation for ever, where a parameter that is not known may do two
     draw, constant = np.random.default_rng(3), np.ones((1, 1))

@@ -207,6 +207,17 @@ def test_a_counter_of_microseconds_runs_over(size: int) -> None:
     assert clock.dropped == 1
 
 
+@pytest.mark.parametrize(
+    ("step", "meant"), [(45.0, 45.0), (-45.0, -45.0), (55.0, -45.0), (-55.0, 45.0)]
+)
+def test_of_a_counter_that_runs_over_a_step_is_the_shorter_way(step: float, meant: float) -> None:
+    """The time between the last sample before a gap and the first one behind it."""
+    time = 50.0 + np.array([-_DT, 0.0, step, step + _DT])
+    _, (grid, _, gap) = _joined(_clock(wraps=100.0).feed(time, _rows(4)))
+    assert gap is not None and gap.end - gap.start == pytest.approx(meant)
+    assert grid[0] == pytest.approx(50.0 + meant)
+
+
 def test_a_counter_of_an_encoder_runs_over_in_a_gap() -> None:
     rows = _rows(20)
     counts = 2**31 - 50 + 9 * np.arange(20)

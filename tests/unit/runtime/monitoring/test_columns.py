@@ -11,7 +11,7 @@ import pytest
 from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_file import read_log
-from bondgraph.runtime.monitoring.columns import Columns, Mapped, read_map
+from bondgraph.runtime.monitoring.columns import Columns, Mapped, read_columns, read_map, read_time
 
 
 def _known(path: str, unit: str = "V", **more: object) -> Known:
@@ -127,6 +127,23 @@ def test_a_map_file(tmp_path: Path) -> None:
         "coil.i": Mapped("a"),
         "rotor.w": Mapped("b"),
     }
+
+
+def test_a_map_file_may_say_where_the_time_is(tmp_path: Path) -> None:
+    """Unless a signal is called so: then it is that."""
+    path = tmp_path / "map.toml"
+    path.write_text('time = { column = "stamp", unit = "ms" }\non = "switch"\n')
+    assert read_map(path, _SIGNALS) == {"on": Mapped("switch")}
+    assert read_map(path, [_known("time"), _known("on")]).keys() == {"time", "on"}
+    clock = read_time(path)
+    assert clock is not None and (clock.column, clock.unit) == ("stamp", "ms")
+    assert read_columns(path) == {"stamp", "switch"}
+    path.write_text('on = "switch"\n')
+    assert read_time(path) is None
+    for more in ("scale = 2.0", "offset = 1.0"):
+        path.write_text(f'time = {{ column = "stamp", {more} }}\n')
+        with pytest.raises(LogError, match="a scale or an offset"):
+            read_time(path)
 
 
 @pytest.mark.parametrize(

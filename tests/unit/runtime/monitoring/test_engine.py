@@ -226,6 +226,35 @@ def test_what_is_unavailable_is_not_waited_for() -> None:
     assert nothing.warm_up == 0.0
 
 
+def test_which_signals_a_residual_reads_and_whether_it_has_a_bound() -> None:
+    """U - R i - L i' - k w of all signals, k i - J w' - f w of two: by hand, in any order."""
+    made, bounds = _motor().runnable_programs
+    alone = setting(made)
+    names = [k.path for k in alone.signals]
+    reads = [{n for n, own in zip(names, row, strict=True) if own} for row in alone.reads()]
+    assert sorted(map(sorted, reads)) == [["U", "angle", "i", "on"], ["angle", "i"]]
+    assert alone.has_bound == [False, False]
+    assert bounds is not None and setting(made, bounds).has_bound == [True, True]
+
+
+def test_what_laws_received_stands_behind_the_signals() -> None:
+    """As the sensor said it, where nothing else is given: with what the sensor is off by."""
+    made = setting(_motor().runnable_programs[0])
+    signals = tuple(k._replace(offset=10.0 * at) for at, k in enumerate(made.signals))
+    samples = np.arange(8.0).reshape(2, 4)
+    assert len(signals) == 4 and not made.readings
+    np.testing.assert_array_equal(made.table(samples, None), samples)
+    reads = made._replace(signals=signals, readings=(3, 1))
+    expected = [[0.0, 1.0, 2.0, 3.0, 3.0 + 30.0, 1.0 + 10.0],
+                [4.0, 5.0, 6.0, 7.0, 7.0 + 30.0, 5.0 + 10.0]]  # fmt: skip
+    np.testing.assert_array_equal(reads.table(samples, None), expected)
+    given = reads.table(samples, np.array([[0.5, 0.25], [1.5, 1.25]]))
+    np.testing.assert_array_equal(given[:, 4:], [[30.5, 10.25], [31.5, 11.25]])
+    for bad in (np.zeros((2, 1)), np.zeros((2, 3))):
+        with pytest.raises(ValueError, match="samples of shape"):
+            reads.table(samples, bad)
+
+
 def test_a_model_without_values_says_which_are_missing() -> None:
     program = programs.encoder()
     unset = [f.path for f in program.params if f.default is None]

@@ -66,6 +66,21 @@ def test_a_kill_in_any_byte_leaves_whole_lines(tmp_path: Path) -> None:
         last.close()
 
 
+def test_bytes_behind_the_last_whole_record_are_counted(tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    journal = opened(path)
+    journal.write({"time": 1.0}, {}, [(1, Verdict("start", 0.0))])
+    journal.close()
+    whole = path.read_bytes()
+    for rest, words in ((b"{", "1 byte "), (b'{"n": 7', "7 bytes ")):
+        path.write_bytes(whole + rest)
+        again = opened(path)
+        again.close()
+        assert again.past is not None
+        assert again.past.damage == f"the last {words}of the journal are no whole record"
+        assert path.read_bytes() == whole
+
+
 def test_old_positions_are_cleaned_away_and_verdicts_stay(tmp_path: Path) -> None:
     path = tmp_path / "j"
     journal = opened(path)

@@ -249,3 +249,12 @@ def test_a_column_that_does_not_run_is_looked_at_again() -> None:
         found.check()
     (log,) = found.feed(b"0.1,4\n0.2,5\n")
     assert log.time.tolist() == [0.1, 0.2]
+
+
+def test_a_header_may_end_in_a_separator_and_may_not_begin_with_one() -> None:
+    """As programs write it that put one behind each value; a column without a name is none."""
+    log = one("t,a,\n1,2,\n3,4,\n")
+    assert (log.time.tolist(), log.columns["a"].tolist()) == ([1.0, 3.0], [2.0, 4.0])
+    for bad in (",t,a\n", "t,,a\n", "t,a,a\n", "t\n"):
+        made = decoder()
+        assert made.feed(bad.encode() + b"1,2,3\n") == []

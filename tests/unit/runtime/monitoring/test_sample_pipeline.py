@@ -375,6 +375,14 @@ def test_after_a_gap_engine_and_decision_begin_anew() -> None:
     assert told[at + 1][0] == 400
 
 
+def test_a_sample_behind_a_gap_is_computed_though_it_is_the_last_one() -> None:
+    """The clock holds the newest sample back until another one comes, or the end."""
+    bench = Bench([Chunk(rows(0, 100)), Chunk(rows(400, 1))])
+    bench.watched()
+    seen = [how for what, how in bench.told if what == "update"]
+    assert seen[-1] == (400, 1) and sum(count for _, count in seen) == 101
+
+
 # ------------------------------------------------------------------- going on
 
 

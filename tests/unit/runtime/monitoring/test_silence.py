@@ -167,6 +167,16 @@ def test_usual_pauses_are_no_silence_and_long_silence_is_no_flood() -> None:
     assert one.heard(now) > 90_000.0
 
 
+def test_how_long_a_silence_was_is_known_where_it_was_told() -> None:
+    one = Silence(2.0, 0.5, 10.0)
+    assert (one.due(12.0), one.heard(12.5), one.told) == (0.0, 0.0, False)
+    assert (one.due(14.0), one.due(15.0), one.told) == (0.0, 2.5, True)
+    assert (one.heard(15.5), one.told, one.heard(18.5)) == (3.0, False, 0.0)
+    assert (one.lasts(19.5), one.lasts(18.0)) == (1.0, 0.0)
+    slow = Silence(2.0, 1.0, 0.0)  # three steps of its samples
+    assert (slow.limit, slow.due(3.0), slow.due(3.1)) == (3.0, 0.0, 3.1)
+
+
 def test_a_single_stall_is_no_usual_pause() -> None:
     one = Silence(2.0, 0.001, 0.0)
     for k in range(1, 100):
