@@ -114,6 +114,8 @@ class _Opener:
 
     def _function(self, node: Formula, depth: int) -> list[str]:
         parts = [self.open(part, depth) for part in node.parts]
+        if node.data == "delay":
+            parts[1] = [self.speller.words["seconds"].format(*parts[1])]
         for part in parts[:-1]:
             part[-1] += self.speller.words[","]
         inner = [piece for part in parts for piece in part]
@@ -126,10 +128,11 @@ class _Opener:
         return _around(self.speller.called(node.data) + _OPEN, inner, _SHUT)
 
     def _choice(self, node: Formula, depth: int) -> list[str]:
+        """The two values in a line, which ends where the formula does or at a parenthesis."""
         found: list[str] = []
         for word, part in zip(("if ", "then ", "else "), node.parts, strict=True):
             found += _around(_words(word), self.open(part, depth), "")
-        return found
+        return found if depth == 1 else _around(_OPEN, found, _SHUT)
 
 
 _OPEN = '<mo stretchy="false" form="prefix">(</mo>'

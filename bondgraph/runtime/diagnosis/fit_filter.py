@@ -11,8 +11,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
+from scipy.special import pdtrc
+
+from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 from bondgraph.runtime.diagnosis.errors_in_variables import Wanted
-from bondgraph.runtime.diagnosis.fitted import Fitted, Left
+from bondgraph.runtime.diagnosis.fitted import Fitted
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.parameter_fit import fit
 from bondgraph.runtime.diagnosis.tuning import FASTEST
@@ -22,6 +25,8 @@ from bondgraph.runtime.monitoring.engine import Engine
 _FASTER = 4.0  # times the filter before
 _LESS = 2.0  # times less that parameters have to be off by with it, in the geometric mean
 _HARDLY = 1.1  # the same where noise is not what they are off by
+_RARE = 0.05  # probability of so many alarms of one an hour
+_AT_ONCE = 4096  # samples that are watched at a time
 
 
 def fit_by_filter(
@@ -39,8 +44,8 @@ def fit_by_filter(
     filter lets more noise through, and is off by more where samples are few in a period of the
     motion: it is taken only for errors of half the size or less. Or of nine tenths, where much more
     than noise is left: that may be what laws make of filtered signals, which noise does not hide.
-    Nor is one taken with which a law is another and less of it is explained: it only hides behind
-    noise what is left, and a watch with that filter would alarm.
+    None is taken with which a watch would alarm on the very logs: it takes over the filter, and
+    what a model leaves out may be less than the noise of these errors, and more than its limits.
     """
     own = engine.configured(bandwidth=usual)
     best = fit(own, pieces, free, model, noise, progress)
@@ -48,21 +53,30 @@ def fit_by_filter(
         own = engine.configured(bandwidth=faster)
         found = fit(own, pieces, free, model, noise, progress)
         less = _HARDLY if any(x.much for x in best.left) else _LESS
-        if _hides(found, best) or not found.spread < best.spread - math.log(less):
+        if not found.spread < best.spread - math.log(less):
+            break
+        if _alarms(engine, found, pieces, model):
             break
         best = found._replace(faster=True)
     return best
 
 
-def _hides(found: Fitted, before: Fitted) -> bool:
-    """Whether a law is another, and a tenth more of it is not explained, noise apart."""
-    return any(
-        new.wrong and _unexplained(new) > _HARDLY * _unexplained(old)
-        for new, old in zip(found.left, before.left, strict=True)
-    )
+def _alarms(
+    engine: Engine, found: Fitted, pieces: Sequence[tuple[str, Piece]], model: DiagnosisModel
+) -> bool:
+    """Whether a watch with what was found alarms on the very logs, more than once an hour.
 
-
-def _unexplained(left: Left) -> float:
-    """The share of a mean square at the nominal values that is left, both without noise."""
-    before, after = (max(x**2 - left.noise**2, 0.0) for x in (left.before, left.after))
-    return after / before if before else 1.0
+    So many that once an hour would be so many with a probability of 5 % at most (Poisson).
+    """
+    seconds, alarms, values = 0.0, 0, found.values
+    model = model._replace(faults={n: values.get(n, known) for n, known in model.faults.items()})
+    for _, piece in pieces:
+        own = engine.configured(values, bandwidth=found.bandwidth)
+        watch, run = Diagnosis(own, model), own.configured()
+        for start in range(0, len(piece.samples), _AT_ONCE):
+            part = slice(start, start + _AT_ONCE)
+            samples = piece.samples[part]
+            said = watch.update(piece.time[part], run.run(samples), samples)
+            alarms += sum(verdict.event == "fault" for verdict in said)
+        seconds += len(piece.samples) * engine.sample_time
+    return alarms > 0 and float(pdtrc(alarms - 1, seconds / 3600.0)) < _RARE

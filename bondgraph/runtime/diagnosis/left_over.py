@@ -66,7 +66,9 @@ def instruments(inputs: Array, filter: Array, mask: Mask) -> Array | None:
         return None
     columns = [filtered(one[:, None], filter[:, None])[:, 0] for one in table]
     there = np.array([np.where(np.isfinite(c), c, 0.0)[mask] for c in columns]).T
-    return _basis(there - there.mean(axis=0))
+    moved = there - there.mean(axis=0)
+    still = np.linalg.norm(moved, axis=0) <= _STILL * np.linalg.norm(there, axis=0)
+    return _basis(np.where(still, 0.0, moved))  # what stands still in these rows is rounding
 
 
 def _usual(values: Array) -> Array | None:

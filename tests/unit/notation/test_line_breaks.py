@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from bondgraph.ir.expr import ZERO_START, Expr, Kind, Pool
-from bondgraph.notation.formula import Reader
+from bondgraph.notation.formula import Formula, Reader, Shape
 from bondgraph.notation.line_breaks import pieces
 from bondgraph.notation.mathml import MathML
 from bondgraph.notation.speller import Spelled
@@ -56,6 +56,10 @@ def _set(expr: Expr, room: float) -> str:
         (p.fn("asin", s), 5, "arcsin(x | +y)"),
         (p.fn("table:t", s), 5, "t(x | +y)"),
         (p.choose(p.compare("<", x, y), z, s), 5, "if x | <y | then z | else x | +y"),
+        (p.add((1, p.choose(p.compare("<", x, y), z, s)), (1, w)), 12,
+         "w | +(if x | <y | then z | else x | +y)"),
+        (p.mul(p.choose(p.compare("<", x, y), z, s), w), 12,
+         "w | (if x | <y | then z | else x | +y)"),
         (p.mul(x, p.power(s, 2), p.power(p.add((1, z), (1, w)), -1)), 12,
          "x | (x | +y)2 | (z | +w)−1"),
         (p.mul(x, p.power(s, 2)), 23, "x | (x+y)2"),
@@ -106,3 +110,9 @@ def test_forty_formulas_inside_each_other_are_opened(deep: int, opened: bool) ->
     for wrapped in (p.der(inner), p.integral(inner, zero), p.scale(Fraction(2), inner)):
         found = pieces(_speller(), Reader().of(wrapped), 5)
         assert len(found) == (2 if deep < 40 else 1)
+
+
+def test_a_delay_that_is_broken_keeps_its_unit() -> None:
+    late = Formula(Shape.CALL, (Reader().of(s), Formula(Shape.NUMBER, (), Fraction(2))), "delay")
+    found = [re.sub("<[^>]*>", "", piece) for piece in pieces(_speller(), late, 5.0)]
+    assert found == ["delay(x", "+y,", "2s)"]

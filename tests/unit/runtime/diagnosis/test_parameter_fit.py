@@ -709,28 +709,32 @@ def test_where_a_faster_filter_tells_little_more_the_usual_one_stays() -> None:
     assert found.bandwidth == bandwidth_for(RATE, N)
 
 
-def test_a_faster_filter_that_hides_a_wrong_law_behind_noise_is_not_taken() -> None:
-    """6 v' = F - 1.5 v - 0.3 v^3 where the model has dry friction: it explains less and less.
+@pytest.mark.parametrize("calm", [0.0, 20.0, 40.0])
+def test_no_faster_filter_is_taken_with_which_a_watch_alarms_on_the_very_log(calm: float) -> None:
+    """6 v' = F - 1.5 v - 0.3 v^3 where the model has dry friction, and for some seconds a weak F.
 
-    Of errors that are reckoned from noise it makes smaller ones, as more noise passes than error.
+    A watch that learns in these what the machine does is surprised later, and with the usual filter
+    as well; but the fit does not ask for that one.
     """
     rate, text = 50.0, """bg 1
     model M { input F : N; param m = 5 kg +- 20%; param b = 2 N.s/m +- 50%; param c = 3 N +- 100%
       1:v { <- Se:F; -> I:m; -> R:b; -> R:dry { e = c*tanh(f/0.05) }; -> Df:w } }"""
     t = np.arange(10_000) / rate
     force = 6.0 * np.sin(0.5 * t) + 4.0 * np.sin(1.3 * t + 1.0) + 2.0 * np.sin(3.1 * t)
+    force *= np.where(t < calm, 0.3, 1.0)
     speed, now = np.zeros_like(t), 0.0
     for k, pull in enumerate(force.tolist()):
         for _ in range(4):
             now += (pull - 1.5 * now - 0.3 * now**3) / 6.0 / rate / 4.0
         speed[k] = now
     speed += 0.01 * speed.std() * np.random.default_rng(1).standard_normal(len(t))
-    c = bondgraph.compile(text=text, rate=rate)
-    log = {"run": Log(t, {"F": force, "w": speed}, {}, {})}
-    found, usual = c.fit(log), c.with_options(bandwidth=1.667).fit(log)
-    assert found.bandwidth == pytest.approx(usual.bandwidth, rel=1e-3)
-    faster = c.with_options(bandwidth=4.0 * found.bandwidth).fit(log)
-    assert faster.spread < usual.spread and faster.left[0].explained < usual.left[0].explained
+    c, log = bondgraph.compile(text=text, rate=rate), Log(t, {"F": force, "w": speed}, {}, {})
+    found = c.fit({"run": log})
+    assert found.bandwidth == pytest.approx(1.667 if calm else 6.667, rel=1e-3)
+    fast = c.with_options(bandwidth=6.667).fit({"run": log})
+    watch = c.with_options(bandwidth=6.667, parameters=tuple(fast.values.items()))
+    (said,) = bondgraph.monitor(watch, log).verdicts
+    assert any(v.event == "fault" for v in said) == (calm > 0.0)
 
 
 def test_an_encoder_has_no_offset() -> None:
