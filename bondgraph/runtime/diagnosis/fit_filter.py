@@ -17,6 +17,7 @@ from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 from bondgraph.runtime.diagnosis.errors_in_variables import Wanted
 from bondgraph.runtime.diagnosis.fitted import Fitted
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
+from bondgraph.runtime.diagnosis.healthy_tolerances import less_offsets
 from bondgraph.runtime.diagnosis.parameter_fit import fit
 from bondgraph.runtime.diagnosis.tuning import FASTEST
 from bondgraph.runtime.monitoring.clock import Piece
@@ -70,7 +71,7 @@ def _alarms(
     """
     seconds, alarms, values = 0.0, 0, found.values
     model = model._replace(faults={n: values.get(n, known) for n, known in model.faults.items()})
-    for _, piece in pieces:
+    for _, piece in less_offsets(found, engine, pieces):
         own = engine.configured(values, bandwidth=found.bandwidth)
         watch, run = Diagnosis(own, model), own.configured()
         for start in range(0, len(piece.samples), _AT_ONCE):

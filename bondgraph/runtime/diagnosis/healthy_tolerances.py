@@ -38,7 +38,7 @@ def with_room(
     """
     if not found.tolerances:
         return found
-    share, logs = np.zeros(len(engine.residuals)), _less_offsets(found, engine, pieces)
+    share, logs = np.zeros(len(engine.residuals)), less_offsets(found, engine, pieces)
     for bandwidth in sorted(set(bandwidths)):
         own = engine.configured(found.values, bandwidth=bandwidth)
         share = np.maximum(share, _needed(own, found, logs, model.memories))
@@ -67,7 +67,7 @@ def narrower(tolerance: float, declared: float) -> float | None:
     return float(f"{math.ceil(tolerance / digit * (1.0 - 1e-9)) * digit:.3g}")
 
 
-def _less_offsets(
+def less_offsets(
     found: Fitted, engine: Engine, pieces: Sequence[tuple[str, Piece]]
 ) -> list[tuple[str, Piece]]:
     """The samples without the offsets that were fitted."""
