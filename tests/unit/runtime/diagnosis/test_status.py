@@ -97,7 +97,7 @@ def test_residuals_whose_noise_nobody_knows_learn_it_and_those_without_origin_wa
 def test_noise_is_learned_until_so_many_rows_have_been_seen(at: float) -> None:
     """The row that is begun counts as the first one of them."""
     every, out = rows_apart(_ENGINE), list[Verdict]()
-    _Watch().status.relearning(at, _mask("r1", "r2"), out)
+    _Watch().status.relearning(at, _NONE, _mask("r1", "r2"), out)
     (said,) = out
     before = math.ceil((round(at / 0.1) + 1) / every)  # rows, with the one that `at` is in
     until = ((before + FIRST - 1) * every - 1) * 0.1
@@ -105,8 +105,17 @@ def test_noise_is_learned_until_so_many_rows_have_been_seen(at: float) -> None:
         f"driven as never before: the noise of r1 and r2 is learned until {until:.3f} s at least,"
         " unless it is seen to be as it was, and no alarm given before"
     )
-    _Watch().status.relearning(at, _NONE, out)
+    _Watch().status.relearning(at, _NONE, _NONE, out)
     assert len(out) == 1
+
+
+def test_what_is_switched_as_never_before_is_not_said_to_be_driven_as_well() -> None:
+    out = list[Verdict]()
+    _Watch().status.relearning(1.0, _mask("r1"), _mask("r1", "r2"), out)
+    assert [v.message.partition(" is learned")[0] for v in out] == [
+        "switched as never before: the noise of r1",
+        "driven as never before: the noise of r2",
+    ]
 
 
 def test_what_waits_and_what_waits_no_longer_is_told_once() -> None:
