@@ -15,11 +15,15 @@ _MOST_PLACES = 3  # more would bury the two that matter
 
 
 class Place(NamedTuple):
-    """Where `dimension` was fixed, and by what (`the port is electrical`)."""
+    """Where `dimension` was fixed, and by what (`the port is electrical`).
+
+    Of a `plain` number its use has fixed it.
+    """
 
     origin: Span
     what: str
     dimension: Dimension = NONE
+    plain: bool = False
 
 
 class Term:
@@ -74,13 +78,19 @@ class Dimensions:
         self._groups = Groups[int]()
         self._value: list[Term | None] = []
         self._births: list[Place] = []
+        self._plain: set[int] = set()
         self._doubted: set[tuple[str, int, int]] = set()
 
     # ------------------------------------------------------------------ terms
 
-    def fresh(self, origin: Span, what: str) -> Term:
-        """A new unknown dimension; `what` names whose it is (`flow of bond b3`)."""
+    def fresh(self, origin: Span, what: str, plain: bool = False) -> Term:
+        """A new unknown dimension; `what` names whose it is (`flow of bond b3`).
+
+        A `plain` number has no unit where it is written: a conflict says which its use gives it.
+        """
         number = len(self._value)
+        if plain:
+            self._plain.add(number)
         self._value.append(None)
         self._births.append(Place(origin, what))
         return Term(NONE, {number: 1}, ())
@@ -217,6 +227,10 @@ class Dimensions:
                 known = power if known is NONE else times(known, power)
                 _collect(unknown, value.unknown, exponent)
                 places = _merged(places, value.places)
+                if number in self._plain and not value.unknown and value.known != NONE:
+                    birth = self._births[number]
+                    said = f"{birth.what} has no unit: its use makes it {describe(value.known)}"
+                    places = _merged(places, (Place(birth.origin, said, value.known, True),))
         return Term(known, unknown, places)
 
     def _say(self, term: Term) -> str:
@@ -246,7 +260,9 @@ def _merged(left: tuple[Place, ...], right: tuple[Place, ...]) -> tuple[Place, .
     if not left:
         return right
     seen = {_key(p.origin) for p in left}
-    return (*left, *[p for p in right if _key(p.origin) not in seen])[:_MOST_PLACES]
+    every = (*left, *[p for p in right if _key(p.origin) not in seen])
+    declared = [p for p in every if not p.plain][:_MOST_PLACES]
+    return (*declared, *[p for p in every if p.plain][:1])
 
 
 def _key(span: Span) -> tuple[str, int, int]:

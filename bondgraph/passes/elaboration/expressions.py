@@ -131,7 +131,7 @@ class Expressions(ABC):
         """A literal in SI; without a unit it takes the one that its use requires."""
         if number.unit is None:
             return self.pool.num(self.held(number.value, number.origin)), (
-                self.quantities.dimensions.fresh(number.origin, f"`{number.text}`")
+                self.quantities.dimensions.fresh(number.origin, f"`{number.text}`", plain=True)
             )
         if place is not None:
             self.value_for_unit(number, number.unit, place)

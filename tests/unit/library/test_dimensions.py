@@ -39,6 +39,20 @@ def test_unknown_takes_the_known_and_remembers_who_said_so() -> None:
     assert [p.what for p in d.places(z)] == ["port a is electrical"]
 
 
+@pytest.mark.parametrize("plain", [True, False])
+def test_a_conflict_says_which_unit_the_use_of_a_plain_number_gives_it(plain: bool) -> None:
+    """k m^2 = J makes k 1/m where J is in m, and k is a number elsewhere."""
+    d = Dimensions()
+    k = d.fresh(at(0), "`3.14`", plain=plain)
+    square = d.known(unit("m^2"), at(1), "")
+    assert d.equate(d.product(k, square), d.known(unit("m"), at(2), ""), at(3), "a sum") is None
+    conflict = d.equate(k, d.known(NONE, at(4), "`th` is in rad"), at(5), "what it reads")
+    assert conflict is not None
+    said = {label.span.start: label.text for label in conflict.labels()}
+    assert said[4] == "`th` is in rad" and said[1] == "in m^2"
+    assert said.get(0) == ("`3.14` has no unit: its use makes it 1/m" if plain else None)
+
+
 def test_conflict_shows_both_halves() -> None:
     d = Dimensions()
     x, y = d.fresh(at(0), "x"), d.fresh(at(1), "y")
