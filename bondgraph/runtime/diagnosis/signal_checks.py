@@ -282,10 +282,9 @@ class SignalChecks:
         return least
 
     def _beyond(self) -> Array:
-        """How far out a spike is: the fewer samples a signal is known by, the farther.
+        """How far out a spike is (`far_out`), of each signal.
 
-        A road is rougher in one second than in the last. And where no sample has been alone yet,
-        one may be as far out as the signal is rough.
+        Where no sample has been alone yet, one may be as far out as the signal is rough.
         """
         return np.asarray(far_out(self._samples) * np.maximum(self._far, self._rough[0]))
 
