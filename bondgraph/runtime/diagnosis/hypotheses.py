@@ -66,10 +66,12 @@ class Stuck(NamedTuple):
         >>> switch.moved(np.array([[0.0], [1.0]]), ["r1", "r2"]).tolist()
         [[False, False], [True, False]]
         """
-        settings, which = np.unique(told != 0, axis=0, return_inverse=True)
-        sets = [self.moves.get(tuple(row), residuals) for row in settings.tolist()]
-        found = np.array([[r in own for r in residuals] for own in sets], dtype=bool)
-        return found.reshape(len(settings), len(residuals))[which.reshape(-1)]
+        told = told != 0
+        fresh = np.ones(len(told), dtype=np.bool_)
+        fresh[1:] = (told[1:] != told[:-1]).any(axis=1)
+        sets = [self.moves.get(tuple(row), residuals) for row in told[fresh].tolist()]
+        found = np.array([[r in own for r in residuals] for own in sets], dtype=np.bool_)
+        return found.reshape(len(sets), len(residuals))[np.cumsum(fresh) - 1]
 
 
 class Hypothesis(NamedTuple):
