@@ -383,10 +383,14 @@ class ResidualInfo(NamedTuple):
         return self.settle + self.held * pace / law_pace(pace)
 
 
+#: Samples that a residual needs at least to start anew, where its filter is fast.
+FEWEST = 40
+
+
 class Opening(NamedTuple):
     """How a residual starts anew: it is not valid before the state `progress` has come to 1.
 
-    That state falls back to 0 where one of the `modes` has changed since the sample before,
+    That takes `FEWEST` samples at least. The state falls back to 0 where one of the `modes` has changed since the sample before,
     because that change may make something jump that the residual differentiates.
     """
 
@@ -430,7 +434,8 @@ class Program(NamedTuple):
 
     def wait(self, pace: float) -> float:
         """Time constants until nothing is left of a start, as `ResidualInfo.wait`."""
-        return self.warmup + max([r.wait(pace) - r.settle for r in self.residuals], default=0.0)
+        begun = max([r.wait(pace) - r.settle for r in self.residuals], default=0.0)
+        return max(self.warmup + begun, FEWEST * pace if self.openings else 0.0)
 
     def __hash__(self) -> int:
         """Of what tells programs apart: what is cached by a program is asked for again and again,

@@ -13,6 +13,7 @@ from math import comb, factorial, perm
 
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.program import (
+    FEWEST,
     Assign,
     Choice,
     Compare,
@@ -33,8 +34,6 @@ from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.procedure import ONE, ZERO
 from bondgraph.passes.lowering.program_names import Names
 from bondgraph.text.source import Span
-
-_FEWEST = 40  # samples that the window is sampled with, where the filter is fast
 
 
 class Window:
@@ -113,7 +112,7 @@ class Window:
             parts = (over, self._filter.pace), (self.held, self._filter.inner.pace)
             took = [(Fraction(n), pool.power(pace, -1)) for n, pace in parts]
             steps = pool.power(pool.add(*took), -1)
-        steps = pool.fn("min", steps, pool.num(Fraction(1, _FEWEST)))
+        steps = pool.fn("min", steps, pool.num(Fraction(1, FEWEST)))
         pace = coef(steps, f"{self._name}_pace", "part of the start that a sample is")
         ahead = Function("min", (ONE, Sum(((True, progress), (True, pace)))))
         value = ahead if self.kept == ONE else Product((self.kept, ahead))

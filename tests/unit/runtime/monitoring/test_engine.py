@@ -214,6 +214,27 @@ def test_reset_and_bandwidth_and_warm_up(native: bool) -> None:
         engine.run(samples[:, :2])
 
 
+@pytest.mark.parametrize("bandwidth", [10.0, 100.0, 300.0])
+def test_the_warm_up_is_that_of_what_starts_anew_where_a_switch_turns(bandwidth: float) -> None:
+    """With a fast filter it opens in forty samples, whatever the filter needs."""
+    text = """bg 1
+model Switched {
+    input on : bool
+    1:coil when on { <- Se:U; -> R:R = 1 Ohm; -> GY:k -> shaft; -> Df:i }
+    param k = 3 N.m/A
+    1:shaft { -> R:b = 2 N.m.s/rad }
+    sensor angle : rad = int(shaft.f)
+}
+"""
+    made = Compilation(Source("switched.bg", text)).with_options(rate=1000.0, bandwidth=bandwidth)
+    engine = made.engine()
+    assert [o.modes for o in made.program.openings] == [("on",)]
+    valid = engine.run(np.tile([[1.0] * len(engine.signals)], (3000, 1))).valid.all(axis=1)
+    settled = int(np.argmax(valid))
+    assert valid[settled:].all() and 40 <= settled
+    assert settled * engine.sample_time <= engine.warm_up + 1e-9
+
+
 def test_what_is_unavailable_is_not_waited_for() -> None:
     made, _ = _motor().runnable_programs
     first, second = made.program.residuals
