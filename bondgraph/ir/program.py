@@ -390,8 +390,9 @@ FEWEST = 40
 class Opening(NamedTuple):
     """How a residual starts anew: it is not valid before the state `progress` has come to 1.
 
-    That takes `FEWEST` samples at least. The state falls back to 0 where one of the `modes` has changed since the sample before,
-    because that change may make something jump that the residual differentiates.
+    That takes `FEWEST` samples at least. The state falls back to 0 where one of the `modes` has
+    changed since the sample before, because that change may make something jump that the residual
+    differentiates.
     """
 
     residual: str

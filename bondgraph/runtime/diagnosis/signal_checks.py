@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.diagnosis.following import Following
+from bondgraph.runtime.diagnosis.held_readings import HeldReadings
 from bondgraph.runtime.diagnosis.input_moves import InputMoves
 from bondgraph.runtime.diagnosis.rare_steps import answered, answers, rare_steps, sizes
 from bondgraph.runtime.diagnosis.rows import PAUSE, away
@@ -114,6 +115,7 @@ class SignalChecks:
         self._drive = np.array([name in inputs for name in self._names], dtype=np.bool_)
         self._steer = [*np.array(self._at, dtype=int)[self._drive].tolist(), *modes]
         count = len(self._names)
+        self._held = HeldReadings(count, len(modes), _SIDE)
         self._seen: list[tuple[Array, Array]] = []  # healthy samples until weights are known
         self._weights = np.empty((0, 2))  # (signals, 2): of the nearest and the next ones
         self._samples = np.zeros(count)  # that were learned from
@@ -146,6 +148,7 @@ class SignalChecks:
         self._before = np.zeros((_AROUND, len(self._names)))  # how far out the last samples were
         #: Of the last rows: whether a signal was louder than ever, and so much that it is unusual.
         self._loud = np.zeros((_AFTER, 2, len(self._names)), dtype=np.bool_)
+        self._held.restart()
         self._encoders.restart()
 
     def row(
@@ -170,7 +173,7 @@ class SignalChecks:
         self._full = samples[0]
         with_last = np.concatenate([self._last, own])
         steered = np.concatenate([self._steered, samples[:, self._steer]])
-        runs, ended, changes = self._runs(own)
+        runs, ended, changes = self._runs(own, samples[:, self._steer])
         self._last, self._steered = with_last[-4 * _SIDE :], steered[-4 * _SIDE :]
         if not self._names or len(with_last) < 4 * _SIDE + 1:
             return {}, ()
@@ -222,7 +225,8 @@ class SignalChecks:
         """Which signals may stand still: commands at an end of what they do, and sensors at theirs
         that came to rest with such a command, or ran out behind it: a machine that is switched off
         has no noise. A sensor that dies while a command has stood at its end for long is none of
-        these. On a ramp it looks like one that ran out: whether it is, residuals say.
+        these. On a ramp it looks like one that ran out: whether it is, residuals say. So may
+        readings that are held in a position of a switch.
         """
         ends = ((last >= top) | (last <= bottom)) & (top > bottom)
         commands = ends & self._drive
@@ -232,7 +236,7 @@ class SignalChecks:
         ran_out = (steps >= 0.0).all(axis=0) & (steps.max(axis=0) > 0.0) & commands.any()
         ran_out &= steps[-1] <= steps[:-1].max(axis=0)
         ran_out &= [name not in suspects for name in self._names]
-        return np.asarray(commands | (ends & (together | ran_out)))
+        return np.asarray(commands | (ends & (together | ran_out)) | self._held.held)
 
     def _begun(self, found: Mapping[str, Unusual], driven: Container[str]) -> list[Unusual]:
         """What is new; what has been away for some rows is over."""
@@ -332,16 +336,17 @@ class SignalChecks:
                 "stuck": (noisy & (runs > longest), runs, self._still),
             }
 
-    def _runs(self, own: Array) -> tuple[Array, Array, Array]:
+    def _runs(self, own: Array, steered: Array) -> tuple[Array, Array, Array]:
         """How long each signal has had its present value, and the longest one that ended in this
-        row; how often it changed."""
+        row, but for what a switch held; how often it changed."""
         before = self._last[-1:] if len(self._last) else own[:1]
         same = np.diff(np.concatenate([before, own]), axis=0) == 0.0
         number = np.arange(len(own))[:, None]
         turns = np.maximum.accumulate(np.where(same, -self._run, number), axis=0)
         ran = number - np.concatenate([-self._run[None], turns[:-1]])
-        ended = np.where(same, 0.0, ran).max(axis=0)
+        ended = np.where(same | self._held.held, 0.0, ran).max(axis=0)
         self._run = len(own) - turns[-1]
+        self._held.row(steered[:, int(self._drive.sum()) :], self._run)
         both = np.concatenate([self._tail, own])
         begins = np.where(self._run <= len(own), len(both) - self._run, 0.0).astype(int)
         fresh = begins >= _LEAST
@@ -374,10 +379,11 @@ class SignalChecks:
         rows, self._seen = self._seen, []
         last, before = np.empty((0, own.shape[1])), steered[:0]
         self._run[:] = 0.0
+        self._held.restart()
         for row, commands in rows:
             with_last, steered = np.concatenate([last, row]), np.concatenate([before, commands])
             self._last = last
-            _, ended, changes = self._runs(row)
+            _, ended, changes = self._runs(row, commands)
             last, before = with_last[-4 * _SIDE :], steered[-4 * _SIDE :]
             if len(with_last) >= 4 * _SIDE + 1:
                 far, rough, moved, _ = self._looked_at(with_last, steered)
