@@ -71,7 +71,7 @@ class Stuck(NamedTuple):
         fresh[1:] = (told[1:] != told[:-1]).any(axis=1)
         sets = [self.moves.get(tuple(row), residuals) for row in told[fresh].tolist()]
         found = np.array([[r in own for r in residuals] for own in sets], dtype=np.bool_)
-        return found.reshape(len(sets), len(residuals))[np.cumsum(fresh) - 1]
+        return np.asarray(found.reshape(len(sets), len(residuals))[np.cumsum(fresh) - 1])
 
 
 class Hypothesis(NamedTuple):

@@ -73,7 +73,7 @@ class Told(NamedTuple):
     """What rows tell in their `forms`: see `Row`, with as many rows first.
 
     `noise` is a deviation such that `CORRELATED` times its square is the variance of independent
-    rows.
+    rows. The `value` is beside the `level` at which residuals stand.
     """
 
     forms: Forms
@@ -83,6 +83,7 @@ class Told(NamedTuple):
     doubt: Array
     rest: Array
     noise: Array
+    level: Array
 
     @property
     def variance(self) -> Array:
@@ -107,11 +108,14 @@ def told(before: Sequence[Row], rows: Sequence[Row], limits: Sequence[Array]) ->
         forms.of(Moves(getattr(last, name)[:, None], getattr(means, name)[:, None]))[:, 0]
         for name in ("value", "bound", "doubt")
     )
-    value -= np.where(forms.sums, limit.stands * (1.0 + forms.before.sum(axis=1)), 0.0)
+    times = 1.0 + forms.before.sum(axis=1)
+    mean = np.array([np.broadcast_to(row.mean, row.value.shape) for row in rows])
+    value -= np.where(forms.sums, limit.stands * times, 0.0)
+    level = np.where(forms.sums, (mean + limit.stands) * times, mean)
     noise = np.where(forms.sums, limit.unit / math.sqrt(CORRELATED), limit.sigma)
     value = np.where(last.valid, value, 0.0)
     rest = forms.of(Moves(last.slopes, means.slopes))
-    return Told(forms, value, last.valid, bound, doubt, rest, noise)
+    return Told(forms, value, last.valid, bound, doubt, rest, noise, level)
 
 
 def _averages(before: Sequence[Row], rows: Sequence[Row]) -> Average:

@@ -11,7 +11,7 @@ from types import MappingProxyType
 import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import drifting
-from bondgraph.runtime.diagnosis.held_positions import Instead, staying
+from bondgraph.runtime.diagnosis.held_positions import Instead, Loudness, staying
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import ALL, Bank, Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.isolation import (
@@ -81,11 +81,12 @@ class _Begun(NamedTuple):
 
 class _Held(NamedTuple):
     """What is held at a position: what runs beside, what it moves residuals by, the first of its
-    `moves`, and their slopes; and which are valid, (rows, residuals)."""
+    `moves`, and their slopes; which are valid, and how much louder, both (rows, residuals)."""
 
     beside: Instead
     moves: Moves
     sound: Mask
+    louder: Array
 
 
 class _Sized(NamedTuple):
@@ -151,6 +152,7 @@ class SinceOnset:
         self._unsaid = np.zeros((_GROWS, shape[1]), dtype=bool)
         self._slopes = np.zeros(shape)  # of the last row
         self._means = np.zeros((LAGS + 1, *shape))  # averages of that and of the rows before
+        self._loud = Loudness(self._engine, self._all, nominal, healthy)
         self._others: dict[int, Array] = {}  # what residuals would be above that, if held
         self._told = np.zeros((0, len(engine.signals)))  # samples of the last row
         self._place = {k.path: at for at, k in enumerate(engine.signals)}
@@ -366,9 +368,10 @@ class SinceOnset:
                 place = self._place[position.signal]
                 stays = staying(self._healthy[:count, place], samples[:, place])
                 beside = self._told_else(before, begin, position.at(stays), position.stays)
-                last, means, sound = beside.rows(samples, ends, lengths)
+                last, means, sound, louder = beside.rows(samples, ends, lengths)
                 rows = len(self._past)
-                held[k] = _Held(beside, Moves.behind(last, means, rows), sound[len(sound) - rows :])
+                moves, first = Moves.behind(last, means, rows), len(sound) - rows
+                held[k] = _Held(beside, moves, sound[first:], louder[first:])
         sized = [k for k in own if k not in held]
         known = [self._all[k] for k in sized]
         bent = {at: changes[k] for at, k in enumerate(sized) if k in changes}
@@ -398,7 +401,7 @@ class SinceOnset:
         and tolerances do the same in both."""
         known = () if stays else self._tolerated
         other, told = (Bank(copied(before), known, self._nominal, begin) for _ in range(2))
-        return Instead(other, told, held)
+        return Instead(other, told, held, self._loud.beside(held))
 
     def _since(self, count: int) -> tuple[Array, list[int], list[int]]:
         """Samples behind so many of the healthy ones: where rows end, how many each has in all."""
@@ -446,11 +449,12 @@ class SinceOnset:
         self._means = np.concatenate([self._means, means[LAGS:]])[-LAGS - 1 :].copy()
         left = MOST - len(self._rows)
         for k, own in self._held.items():
-            moved, total, sound = own.beside.rows(samples, ends, lengths)
+            moved, total, sound, louder = own.beside.rows(samples, ends, lengths)
             total = np.concatenate([np.zeros((LAGS, *total.shape[1:])), total])
             more = Moves(moved[:left], total[: LAGS + left])
             sound = np.concatenate([own.sound, sound[:left]])
-            self._held[k] = _Held(own.beside, own.moves.then(more), sound)
+            louder = np.concatenate([own.louder, louder[:left]])
+            self._held[k] = _Held(own.beside, own.moves.then(more), sound, louder)
             self._others[k] = moved[-1, 0]
         if left:
             self._moves = self._moves.then(Moves(last[:left], means[: LAGS + left]))
@@ -540,11 +544,14 @@ class SinceOnset:
 def _instead(seen: Told, rows: Rows, held: _Held) -> Rows:
     """Rows as they would be if a position was told that is held.
 
-    Residuals that have no value yet, in the first rows, have no weight (NaN) in any.
+    They have the noise that they have there, and where that is another they stand at zero. Those
+    that have no value yet, in the first rows, have no weight (NaN) in any.
     """
     moved = seen.forms.of(held.moves)
-    value = rows.value + moved[:, 0]
-    weight = seen.weights(value)
+    louder = held.louder[: len(rows.value)]
+    value = rows.value + moved[:, 0] + np.where(louder == 1.0, 0.0, seen.level)
+    weight = seen._replace(noise=louder * seen.noise, bound=louder * seen.bound,
+                           doubt=louder * seen.doubt).weights(value)  # fmt: skip
     weight[rows.weight == 0] = 0.0
     weight[:_GROWS][~held.sound[:_GROWS] & (rows.weight[:_GROWS] > 0)] = np.nan
     rest = rows.rest.copy()
