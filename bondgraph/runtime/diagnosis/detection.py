@@ -15,6 +15,7 @@ from bondgraph.runtime.diagnosis.row_averages import added
 from bondgraph.runtime.diagnosis.row_sums import Moves
 from bondgraph.runtime.diagnosis.rows import PAUSE, Part, Row, away
 from bondgraph.runtime.diagnosis.score_sums import ScoreSums
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
@@ -22,6 +23,7 @@ _QUIET = 2  # rows, at least: what moves through zero is quiet in one
 _STILL = 8  # rows at least that no alarm would be given in, until it is over for that alone
 _OUT = 3.0  # deviations that noise by itself hardly reaches
 _CHANCE = 2.33  # deviations below an even chance, of a test of signs: one in a hundred
+_KNOWN = 16  # rows from which it is known what a residual is beside a fault
 _LEAST = 0.5  # deviations, of averages or rows: a fault that does less is not seen
 
 
@@ -75,9 +77,10 @@ class Detection:
         self._cusum.restart()
         self.scores.restart()
         # of rows of this alarm, and of their averages: 1, excess, squares; and of those that were
-        # out how many, and how many more are explained by the fault that is known than are not
-        self._sum = np.zeros((8, len(self._names)))
-        self._held = np.zeros((8, len(self._names)))  # the same of rows since they are quiet
+        # out how many, and how many more are explained by the fault that is known than are not; of
+        # what is beside that fault: 1, values, squares
+        self._sum = np.zeros((11, len(self._names)))
+        self._held = np.zeros((11, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
         self._quiet = 0  # rows that nothing speaks against an end in
         self._still = 0  # rows that no alarm would be given in
@@ -183,19 +186,21 @@ class Detection:
         excess = np.where(seen, _excess(row.value, row.bound, limits[:, 0]), 0.0)
         loud = np.abs(excess) > 1.0
         more = np.where(seen & (self._sum[0] > 0), self._more(excess, limits[:, 5]), 0.0)
-        moved = moves() if seen.any() else None
+        moved, one = moves() if seen.any() else None, np.ones_like(excess)
         if moved is not None:
-            count, balance = self._sum[6:]
+            count, balance = self._sum[6:8]
             named = np.isfinite(moved.last) & (balance >= -_CHANCE * np.sqrt(count))
-            self._held[6:] += _explained(moved.last, row, excess, limits[:, 0])
+            self._held[6:8] += _explained(moved.last, row, excess, limits[:, 0])
             without, tells = self._without(moved, row, limits)
+            rest = row.value - moved.last
+            self._held[8:] += np.where(seen & np.isfinite(rest), [one, rest, rest**2], 0.0)
             seen &= tells | loud | ~named
             more = np.where(seen, np.where(named, without, more), 0.0)
         # few rows do not tell how it goes on: what was out by 5 is no more healthy at -80
         more = np.where(np.abs(excess) > limits[:, 2], -np.inf, more)
         self._healthy = np.maximum(self._healthy + more, 0.0)
         # what is quiet now is no part of how far out it was, until it is out again
-        one, lasting = np.ones_like(excess), self._cusum.excess
+        lasting = self._cusum.excess
         known = np.where(np.isfinite(lasting), [one, lasting, lasting**2], 0.0)
         self._held[:6] += np.where(seen, [one, excess, excess**2, *known], 0.0)
         out = self._healthy <= 0.0
@@ -213,10 +218,17 @@ class Detection:
     def _without(self, moved: Moves, row: Row, limits: Array) -> tuple[Array, Mask]:
         """By how much more probable a row is without a fault that moves residuals so, which tell.
 
-        By its last sample, or where that cannot tell by its average beside the rows before.
+        By its last sample, or where that cannot tell by its average beside the rows before. What a
+        residual was beside the fault in most rows it is on: it goes nowhere else within its
+        threshold just when the fault would be over.
         """
         sigma, memory, unit = limits[:, 0], limits[:, 5], limits[:, 6]
-        more, tells = _without(moved.last, row.value, row.bound, sigma)
+        count, total, squares = self._sum[8:]
+        rest = total / np.maximum(count, 1.0)
+        scatter = np.sqrt(np.maximum(squares / np.maximum(count, 1.0) - rest**2, 0.0))
+        bound = np.where(count >= _KNOWN, np.minimum(row.bound, UNKNOWN * scatter), row.bound)
+        value = row.value - np.where(bound < row.bound, rest, 0.0)
+        more, tells = _without(moved.last, value, bound, sigma)
         whole = added(moved.means[-1:], moved.means[-2::-1, None], limits)[0]
         average, shows = _without(whole, self._cusum.lasting[0], self._cusum.lasting[1], unit)
         use = ~tells & shows & np.isfinite(average)

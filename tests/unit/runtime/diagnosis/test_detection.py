@@ -259,3 +259,30 @@ def test_a_state_goes_through_json_and_another_kind_is_refused() -> None:
     del state["sums"]
     with pytest.raises(KeyError):
         detection.resumed(state)
+
+
+@pytest.mark.parametrize(("rows", "known"), [(4, False), (40, True)])
+def test_what_a_residual_is_beside_the_fault_does_not_go_away_with_it(
+    rows: int, known: bool
+) -> None:
+    """A threshold of 20 for what parameters may do, a fault of 12, and 9 beside it.
+
+    A healthy machine may be at 9, and the machine with the fault at -12: from 21 to 9 is 12 less,
+    at once, which is the fault. It is over once there are rows enough to know the 9 by.
+    """
+    draw, fault = np.random.default_rng(3), np.full(2, 12.0)
+    none, wide = np.zeros(2), np.full(2, 20.0)
+
+    def over(detection: Detection, level: float) -> bool:
+        value = level + draw.normal(size=2)
+        row = Row(0.0, none, None, value, np.ones(2, dtype=bool), wide, none, none)
+        return detection.over(row, _LIMITS, lambda: _moves(fault))
+
+    detection = Detection(["r1", "r2"], 3, pause=1000)
+    _alarm(detection, 30.0)
+    assert not any(over(detection, 21.0) for _ in range(rows))
+    assert any(over(detection, 9.0) for _ in range(6)) == known
+    other = Detection(["r1", "r2"], 3, pause=1000)
+    _alarm(other, 30.0)
+    assert not any(over(other, 21.0) for _ in range(rows))
+    assert not any(over(other, level) for level in 12.0 + 9.0 * np.cos(np.arange(0.0, 0.6, 0.05)))
