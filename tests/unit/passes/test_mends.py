@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from bondgraph.compilation import Compilation
 from bondgraph.ir.graph import BondGraph
 from bondgraph.passes.causality.mends import Change, _edit, _words
+from bondgraph.text.diagnostic import CompileError
+from bondgraph.text.source import Source
 from tests.unit.passes.circuits import compiled
 
 _TEXT = """bg 1
@@ -131,3 +134,45 @@ def test_new_nodes_have_names_that_are_free() -> None:
     assert _mended(text, "grow", "a") == grown
     mended = _mended(_TEXT.replace("R:r = 2", "R:link = 2"), "1", "a", "b")
     assert mended is not None and "a -> 1:link2 -> b; link2 -> R:loss = 1" in mended
+
+
+def _proposed(text: str) -> list[str]:
+    """What would mend the one conflict of a model, without how it is written."""
+    with pytest.raises(CompileError) as caught:
+        _ = Compilation(Source("m.bg", f"bg 1\nmodel M {{\n{text}\n}}\n")).integral
+    (error,) = [d for d in caught.value.diagnostics if d.code == "causality-conflict"]
+    return [line[2:] for line in error.help.splitlines() if line.startswith("- ")]
+
+
+def test_five_changes_are_proposed_and_two_of_a_kind() -> None:
+    """That a or b might be of the other kind would be the sixth and the seventh."""
+    assert _proposed("Se:a -> 0:j; Se:b -> j; j -> R:r = 1") == [
+        "put a 1-junction with an R or an I between Se:b and 0:j",
+        "put a 1-junction with an R or an I between Se:a and 0:j",
+        "make 0:j a 1-junction, if its bonds share the flow and not the effort",
+        "leave out Se:b",
+        "leave out Se:a",
+    ]
+
+
+def test_what_is_left_out_must_leave_no_junction_with_one_bond() -> None:
+    """Junctions with losses between x, y, z and w would do, too: a third and more of a kind."""
+    chain = "Sf:a -> 1:x -> 1:y -> 1:z -> 1:w; Sf:b -> w; y -> R:r = 1; z -> R:s = 2"
+    assert _proposed(chain) == [
+        "put a 0-junction with an R or a C between Sf:b and 1:w",
+        "put a 0-junction with an R or a C between Sf:a and 1:x",
+        "make Sf:b an Se, if it holds an effort",
+        "make Sf:a an Se, if it holds an effort",
+    ]
+    assert _proposed(chain + "; x -> R:t = 1; w -> R:u = 1")[2:] == [
+        "make 1:w a 0-junction, if its bonds share the effort and not the flow",
+        "leave out Sf:b",
+        "leave out Sf:a",
+    ]
+
+
+def test_one_change_at_a_place_where_three_meet() -> None:
+    """With any one of three pumps gone or lossy the other two are still there."""
+    assert _proposed("Se:a -> 0:j; Se:b -> j; Se:c -> j; j -> R:r = 1") == [
+        "make 0:j a 1-junction, if its bonds share the flow and not the effort"
+    ]

@@ -149,3 +149,49 @@ def test_nets_of_resistances_of_both_signs() -> None:
     assert 20 <= sum(singular for _, singular in NETS) <= 40
     for text, singular in NETS:
         assert bool(warnings(text)) == singular, text
+
+
+def test_the_first_node_of_a_model_takes_part_as_well() -> None:
+    text = FEEDBACK.format("2", "2", "2").replace("Se:U -> 1:i", "R:R1 <- 1:i; Se:U -> i")
+    (found,) = warnings(text.replace("; i -> R:R1", ""))
+    assert "the loop of R:R1, Se:fb and R:R2 has the gain 1" in found.message
+    assert [label.span.text.split()[0] for label in found.labels] == ["R:R1", "Se:fb", "R:R2"]
+
+
+def test_a_loop_with_one_element_is_that_of_all_its_nodes() -> None:
+    (found,) = warnings(
+        "param n = 1; 0:a -> TF:n { e1 = n*e2 } -> 0:b; a -> b; Sf:q -> a; b -> R:r = 2"
+    )
+    assert "the loop of 0:a, TF:n and 0:b has the gain 1" in found.message
+    assert found.help.startswith("n = 1 makes it so. The relations")
+
+
+def test_a_loop_of_numbers_that_no_parameter_leads_out_of() -> None:
+    """The gain 2*3/6 of numbers is no finding of this pass; with a parameter that cancels it is."""
+    (found,) = warnings(
+        "param R1 = 1; param R2 = 1; Se:U -> 1:i; Se:fb = 2*out.e -> i; i -> R:R1; i -> 0:out; "
+        "out -> R:R2; out -> De:y"
+    )
+    assert found.help.startswith("R1 = 1 and R2 = 1 cancel in it. The relations")
+
+
+@pytest.mark.parametrize(("count", "told"), [(1, 1), (3, 3), (4, 3)])
+def test_no_more_than_three_loops_are_told(count: int, told: int) -> None:
+    one = (
+        "param A{0} = 2; Se:U{0} -> 1:i{0}; Se:f{0} = A{0}*o{0}.e -> i{0}; i{0} -> R:r{0} = 1; "
+        "i{0} -> 0:o{0}; o{0} -> R:s{0} = 1; o{0} -> De:y{0}"
+    )
+    found = warnings("; ".join(one.format(k) for k in range(count)))
+    assert len(found) == told
+
+
+@pytest.mark.parametrize("resistances", [3, 6, 8])
+def test_no_more_than_six_places_of_a_loop_are_shown(resistances: int) -> None:
+    """A = R1 + ... + Rn + Ro, of a resistance of 1 at the output."""
+    ladder = "; ".join(f"i -> R:r{k} {{ e = {k + 1}*f }}" for k in range(resistances))
+    gain = sum(range(1, resistances + 1)) + 1
+    (found,) = warnings(
+        f"param A = {gain}; Se:U -> 1:i; Se:fb = A*out.e -> i; {ladder}; i -> 0:out; "
+        "out -> R:ro = 1; out -> De:y"
+    )
+    assert len(found.labels) == min(resistances + 2, 6)
