@@ -126,3 +126,25 @@ model A { param m = 1; param b = 2
     assert {a.op for _, a in says.terms} == {Op.SYM, Op.FN}
     assert sum(c for c, _ in says.terms) == 0  # the symbol less the sine
     assert at < plant.count_of
+
+
+def test_bonds_between_junctions_have_names_and_no_others() -> None:
+    """A port has symbols of its own."""
+    names = {s.symbol.name for s in assemble(graph(FLEXIBLE)).place if "->" in s.symbol.name}
+    assert {name.partition(".")[0] for name in names} == {"motor->shaft", "shaft->load"}
+    assert len(names) == 4  # an effort and a flow of each
+    model = graph(MOTOR)
+    assert not [s for s in assemble(model).place if "->" in s.symbol.name]
+
+
+def test_what_says_nothing_of_variables_belongs_to_every_part() -> None:
+    """A law of parameters alone, and a sensor that shows one."""
+    plant, _, s = _parts(_TWO)
+    constant = (0, plant.pool.sub(s["R"], s["S"]))
+    shown = ("fixed", plant.pool.symbol("fixed", Kind.SENSOR), plant.pool.scale(2, s["R"]))
+    parts = Parts(plant._replace(laws=(constant, *plant.laws), shown=(*plant.shown, shown)))
+    one, two, none = parts.about([s["u"]]), parts.about([s["v"]]), parts.about([])
+    for part in (one, two, none):
+        assert constant in part.laws and shown in part.shown
+    assert none.laws == (constant,) and none.count_of == 0 and not none.balances
+    assert len(one.laws) + len(two.laws) == len(plant.laws) + 2

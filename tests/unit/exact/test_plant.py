@@ -281,3 +281,19 @@ def test_an_over_determined_plant_has_no_trajectory() -> None:
     )
     with pytest.raises(ExactUnavailable):
         plant.trajectory(1, 2)
+
+
+@pytest.mark.parametrize("faults", [[], ["b"], ["c"], ["b", "c"], ["m", "d"]])
+def test_laws_hold_while_what_stands_before_derivatives_varies(faults: list[str]) -> None:
+    model = graph("""
+model Body { param m = 1; param b = 2; param c = 3; param d = 5
+    1:v { <- Se:F; -> I:m; -> R:r { e = b*f + c*der(f) + d*der(der(f)) + der(b*f) }; -> Df:y }
+}""")
+    plant, s = Plant(model), symbols(model)
+    sample = plant.trajectory(5, N, faults=faults).truths
+    for name in "mbcd":
+        assert any(sample.value(s[name])[1:]) == (name in faults)
+    for _, law in plant.structure.assembly.laws:
+        assert vanish(evaluate([law], sample, N - 2)[0])
+    speed = model.nodes[[n.path for n in model.nodes].index("r")].ports[0].flow
+    assert all(sample.value(speed)[: N - 2])  # it moves, in every order

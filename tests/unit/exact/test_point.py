@@ -322,3 +322,21 @@ def test_a_value_goes_through_the_branch_that_is_taken_and_waits_for_an_open_con
     point.add({0: f.number(1), CONSTANT: f.number(-2)})
     assert point.satisfied(0, equation) is None
     assert abs(float(point.fix({STRIDE: f.number(1)}))) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("exponent", "known", "value", "imposed"),
+    [(1, 0, 0, True), (2, 0, 0, True), (1, 2, 0, False), (-1, 2, 0, False), (1, 0, 3, False)],
+)
+def test_a_product_is_zero_where_one_factor_is_whatever_the_others_are(
+    exponent: int, known: int, value: int, imposed: bool
+) -> None:
+    """u^n exp(v) sinh(w): with u told to be zero nothing is asked of v and w."""
+    f, pool = Reals({}), Pool()
+    u, v, w = (pool.symbol(n, Kind.UNKNOWN) for n in "uvw")
+    law = pool.mul(pool.power(u, exponent), pool.fn("exp", v), pool.fn("sinh", w))
+    point = Point({u: (0, 1), v: (1, 1), w: (2, 1)}, Setting({}, f, 1), Random(1))
+    forms = {n: {at * ORDERS: [f.number(1)]} for at, n in enumerate((u, v, w))}
+    point.add({0: f.number(1), CONSTANT: f.number(-known)})
+    assert point.impose(law, f.number(value), dict(forms), {}, 4) is imposed
+    assert point.is_open(forms[v]) and point.is_open(forms[w]) and not point.is_open(forms[u])
