@@ -1,5 +1,7 @@
 """Verification passes what is right and names what is wrong: residual, fault, and why not."""
 
+from collections.abc import Set as AbstractSet
+
 import pytest
 
 from bondgraph.compilation import Compilation
@@ -78,19 +80,96 @@ def test_every_wrong_entry_of_the_matrix_is_found(text: str) -> None:
             assert fault in found.message and right.residuals[residual] in found.message
 
 
-def test_a_wrong_residual_is_found() -> None:
+@pytest.mark.parametrize("at", [0, 1])
+def test_a_wrong_residual_is_found(at: int) -> None:
     c = Compiled(DRIVE)
-    right = c.residuals
+    right = c.residuals.residuals
     pool = c.graph.pool
-    first = right.residuals[0]
     signal = c.graph.sensors[0].symbol
-    wrong = first._replace(expr=pool.add((1, first.expr), (1, pool.der(signal))))
+    wrong = right[at]._replace(expr=pool.add((1, right[at].expr), (1, pool.der(signal))))
     report = Report()
-    residuals = right._replace(residuals=(wrong, *right.residuals[1:]))
-    verify(c.graph, residuals, c.signatures, report, 1)
-    [found] = report.diagnostics
-    assert found.code == "verification-failed"
-    assert first.name in found.message and "healthy" in found.message
+    residuals = c.residuals._replace(residuals=(*right[:at], wrong, *right[at + 1 :]))
+    found = verify(c.graph, residuals, c.signatures, report, 1)
+    [told] = report.diagnostics
+    assert told.code == "verification-failed" and told.severity == "error"
+    assert told.message == f"residual {wrong.name} is not zero on the healthy model"
+    assert [label.span for label in told.labels] == [wrong.closing.origin]
+    assert found.method == "failed" and found.residuals == found.faults == 0
+    assert found.candidates == len(c.graph.faults)
+
+
+def test_a_residual_that_is_wrong_away_from_the_declared_numbers_is_found() -> None:
+    """J - 1 is zero at the number that the model gives."""
+    c = Compiled(DRIVE)
+    pool, first = c.graph.pool, c.residuals.residuals[0]
+    inertia = c.graph.fault_symbols()["J"]
+    excess = pool.mul(pool.sub(inertia, pool.one), c.graph.sensors[0].symbol)
+    wrong = first._replace(expr=pool.add((1, first.expr), (1, excess)))
+    report = Report()
+    residuals = c.residuals._replace(residuals=(wrong, *c.residuals.residuals[1:]))
+    found = verify(c.graph, residuals, c.signatures, report, 1)
+    assert [d.code for d in report.diagnostics] == ["verification-failed"]
+    assert found.trajectories == 2  # at the declared numbers and beside them
+
+
+def _of_one(expr_of: str, sees: AbstractSet[str]) -> tuple[list[str], str]:
+    """What is said of one residual w1 D(parameter) with such a row in the matrix, and where."""
+    c = Compiled(DRIVE)
+    pool, first = c.graph.pool, c.residuals.residuals[0]
+    moving = pool.mul(c.graph.sensors[0].symbol, pool.der(c.graph.fault_symbols()[expr_of]))
+    rows = tuple((fault in sees,) for fault in c.signatures.faults)
+    matrix = SignatureMatrix((first.name,), c.signatures.faults, rows, ())
+    residuals = c.residuals._replace(residuals=(first._replace(expr=moving),))
+    report = Report()
+    verify(c.graph, residuals, matrix, report, 1)
+    assert all(
+        [label.span for label in d.labels] == [first.closing.origin] for d in report.diagnostics
+    )
+    return [d.message for d in report.diagnostics], first.name
+
+
+@pytest.mark.parametrize("parameter", ["J", "Re"])
+def test_what_shows_only_while_a_parameter_changes_is_not_seen(parameter: str) -> None:
+    """A fault changes a parameter once: that there is a slope is not enough."""
+    told, name = _of_one(parameter, {parameter})
+    assert told == [f"residual {name} does not see {parameter} at some points, as it should"]
+    assert _of_one(parameter, set())[0] == []
+    # nor is the sensor, as its factor is zero as long as the parameter is what it is
+    told, _ = _of_one(parameter, {parameter, "w1"})
+    assert told == [
+        f"residual {name} does not see {fault} at some points, as it should"
+        for fault in (parameter, "w1")
+    ]
+
+
+def test_how_it_was_verified_is_told() -> None:
+    c = Compiled(DRIVE)
+    found = verify(c.graph, c.residuals, c.signatures, Report(), 1)
+    assert found.method.startswith("exact Taylor series modulo a ")
+    assert found.method.endswith(f"; {len(c.graph.faults)} of {len(c.graph.faults)} faults")
+
+
+def test_an_entry_that_is_unconfirmed_already_is_not_told_again() -> None:
+    c = Compiled(DRIVE)
+    right = c.signatures
+    rows = tuple((not row[0], *row[1:]) for row in right.rows)
+    report = Report()
+    known = right._replace(rows=rows, unconfirmed={right.residuals[0]: "in a branch"})
+    verify(c.graph, c.residuals, known, report, 1)
+    assert report.diagnostics == []
+
+
+def test_a_relation_without_a_sensor_is_no_residual() -> None:
+    c = Compiled(DRIVE)
+    source = c.graph.inputs[0].symbol
+    *others, last = c.residuals.residuals
+    report = Report()
+    residuals = c.residuals._replace(residuals=(*others, last._replace(expr=source)))
+    found = verify(c.graph, residuals, c.signatures, report, 1)
+    assert [d.code for d in report.diagnostics] == ["sources-contradict"]
+    assert f"`{last.closing.name}`" in report.diagnostics[0].message
+    assert found.method == "not verified: a relation without a sensor"
+    assert found.residuals == found.trajectories == 0
 
 
 def test_a_model_without_residuals_has_nothing_to_verify() -> None:
@@ -99,6 +178,7 @@ def test_a_model_without_residuals_has_nothing_to_verify() -> None:
     empty = SignatureMatrix((), c.graph.faults, tuple(() for _ in c.graph.faults), ())
     found = verify(c.graph, c.residuals._replace(residuals=()), empty, report, 1)
     assert found.residuals == found.trajectories == found.faults == 0
+    assert found.method == "nothing to verify: the model has no residual"
     assert report.diagnostics == []
 
 
