@@ -9,10 +9,11 @@ import sys
 import pytest
 
 from bondgraph.backends.emit import EXTRAS, emit
+from bondgraph.backends.golden import Golden, golden
 from bondgraph.backends.target import load, targets
 from bondgraph.backends.templates import codegen
 from bondgraph.compilation import Compilation
-from bondgraph.ir.program import Field, ResidualInfo
+from bondgraph.ir.program import Field, Program, ResidualInfo
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.source import Source
 from tests.unit.backends import programs
@@ -172,3 +173,31 @@ def test_targets_describe_themselves() -> None:
         assert target.words <= target.reserved
         files = [*target.files, *(file for own in target.extras.values() for file in own)]
         assert all((codegen() / template).is_file() for template, _ in files)
+
+
+def test_vectors_are_computed_for_tests_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They take longer than all the rest; an example does without them."""
+    program = programs.motor()
+    made = emit(program, ("c",), extras=("tests", "example"))
+    (vectors,) = [a.text for a in made if a.path == "tests/golden.h"]
+    assert f"GOLDEN_STEP = {len(golden(program).step)}" in vectors and golden(program).step
+
+    def never(of: Program) -> Golden:
+        raise AssertionError(of.name)
+
+    monkeypatch.setattr("bondgraph.backends.emit.golden", never)
+    alone = emit(program, ("c",), extras=("example",))
+    assert [a for a in made if a.path.startswith("example")] == [
+        a for a in alone if a.path.startswith("example")
+    ]
+    with pytest.raises(AssertionError):
+        emit(program, ("c",), extras=("tests",))
+
+
+def test_an_example_sets_a_parameter_that_the_model_gives_no_number() -> None:
+    program = programs.motor()
+    first, *others = program.params
+    bare = program._replace(params=(first._replace(default=None), *others))
+    made = {a.path: a.text for a in emit(bare, ("c",), extras=("example",))}
+    assert f"parameters.{first.name} = MOTOR_CONSTANT(1.0);" in made["example/example.c"]
+    assert made["example/example.c"].count("parameters.") == 1

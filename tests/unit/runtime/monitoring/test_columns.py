@@ -11,7 +11,14 @@ import pytest
 from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_file import read_log
-from bondgraph.runtime.monitoring.columns import Columns, Mapped, read_columns, read_map, read_time
+from bondgraph.runtime.monitoring.columns import (
+    Columns,
+    Mapped,
+    _close,
+    read_columns,
+    read_map,
+    read_time,
+)
 
 
 def _known(path: str, unit: str = "V", **more: object) -> Known:
@@ -181,3 +188,20 @@ def test_chunks_with_other_columns_are_matched_anew() -> None:
     assert columns(_log({"U": "mV"}, U=1.0)).tolist() == [[1e-3], [1e-3]]
     with pytest.raises(LogError, match="no column for U"):
         columns(_log(V=1.0))
+
+
+@pytest.mark.parametrize(
+    ("wanted", "names", "close"),
+    [
+        # alike are twice the letters in common over all: 8/13, 18/20 and, but for signs, all
+        ("volt left", ["volt", "volt left a", "VOLT_LEFT"], ["volt left a", "VOLT_LEFT"]),
+        ("volt left", ["volt", "amps"], ["volt"]),
+        ("volt left", ["vol", "amps"], []),  # 6/12
+        ("Volt-Left!", ["volt left", "VOLT_LEFT", "volt.left"], ["volt left", "VOLT_LEFT"]),
+        ("volt_left", [], []),
+    ],
+)
+def test_the_two_names_that_are_closest_may_be_meant(
+    wanted: str, names: list[str], close: list[str]
+) -> None:
+    assert _close(wanted, names) == close
