@@ -143,16 +143,12 @@ def untold(covariance: Array, most: float) -> Array:
 def _sparse(rows: Array) -> Array:
     """The same space of rows, each with as many zeros as elimination gives."""
     found = rows.copy()
-    used: list[int] = []
     for k in range(len(found)):
-        left = np.abs(found[k])
-        left[used] = 0.0
-        at = int(np.argmax(left))
+        at = int(np.argmax(np.abs(found[k])))  # never where another row has its one: 0.0 is there
         found[k] /= found[k, at]
         for j in range(len(found)):
             if j != k:
                 found[j] -= found[j, at] * found[k]
-        used.append(at)
     found[np.abs(found) < _PART * np.abs(found).max(axis=1, initial=1.0, keepdims=True)] = 0.0
     return found
 

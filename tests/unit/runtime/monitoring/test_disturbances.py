@@ -29,11 +29,11 @@ def _clock(since: float | None = None, stands: bool = False, **thrown: int) -> A
 class _Told:
     """Disturbances of three residuals, with what they have said."""
 
-    def __init__(self) -> None:
+    def __init__(self, warm_up: float = _WARM_UP) -> None:
         self.said: list[Verdict] = []
         self.states: Any = SimpleNamespace(residuals=("r1", "r2", "r3"), exhausted=())
         self.account: Any = SimpleNamespace(samples={"unmatched": 0})
-        self.of = Disturbances(self.account, self.states, _WARM_UP, self.said.append)
+        self.of = Disturbances(self.account, self.states, warm_up, self.said.append)
 
     def words(self) -> list[tuple[str, float, str]]:
         """What has been said since the last time."""
@@ -133,6 +133,16 @@ def test_gaps_in_a_row_are_counted_and_lost_samples_have_a_remedy(
         one.of.gap(_piece(10.0 + k, Gap(9.0 + k, 10.0 + k, lost, off)))
         told.append([text.partition(" may be missed")[2] for _, _, text in one.words()])
     assert told == [[""], [""], [], [f" (4 gaps in a row{remedy})"]]
+
+
+def test_three_gaps_are_a_row_where_the_third_comes_late() -> None:
+    """Residuals that need ten seconds: what comes again within a hundred is not new."""
+    one, told = _Told(10.0), []
+    for at in (0.0, 50.0, 115.0):  # more than a minute after it was told last
+        one.of.progress = at
+        one.of.gap(_piece(at + 10.0, Gap(at, at + 10.0, 2)))
+        told.append([text.partition(" may be missed")[2] for _, _, text in one.words()])
+    assert told == [[""], [""], [" (3 gaps in a row: tell the rate of the samples by --rate)"]]
 
 
 def _change(at: int, time: float, first: bool = False, **signals: tuple[str, ...]) -> Change:
