@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from itertools import product
 
 import pytest
 
@@ -350,6 +351,34 @@ def test_the_exact_search_alone_agrees_with_the_rules() -> None:
     assert witness.complete()
     found = tuple(v if v >= 0 else witness.value(b) for b, v in enumerate(strokes.value))
     assert broken_rules(graph, found, set()) == []
+
+
+_RINGS = (
+    "1:a -> GY:x -> 1:b -> GY:y -> 1:c -> GY:z -> a; a -> 0:d -> b; d -> C:p; c -> I:s; Se:u -> a",
+    "1:a -> 0:b -> 1:c; a -> R:r; b -> C:p; c -> R:s; c -> I:q; Se:u -> a",
+    "0:a -> TF:t -> 1:b; a -> R:r; a -> R:s; b -> R:q; b -> R:v; Sf:u -> a; R:w -> C:o",
+)
+
+
+@pytest.mark.parametrize("text", _RINGS)
+def test_an_assignment_that_keeps_all_rules_is_its_own_witness(text: str) -> None:
+    """Whatever it is: all that exist are found by trying every one."""
+    graph = build(text)
+    net, at = network(graph)
+    found = 0
+    for hint in product((0, 1), repeat=net.bonds):
+        if broken_rules(graph, hint, set()):
+            continue
+        found += 1
+        strokes = Strokes(net)
+        for wish in demands(graph, at, "integral")[0]:
+            assert strokes.wish(wish) is None
+        witness = Matching(strokes, list(hint))
+        assert witness.complete()
+        for bond, value in enumerate(strokes.value):
+            if value < 0 and bond not in witness.loose:
+                assert witness.value(bond) == hint[bond]
+    assert found > 1
 
 
 def test_nothing_heavy_is_imported() -> None:

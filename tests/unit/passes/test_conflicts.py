@@ -275,16 +275,19 @@ def test_a_change_shows_at_all_like_places_of_the_first_node_too() -> None:
     assert text.startswith("make 0:n (and the 1 like it) a 1-junction")
 
 
-def test_work_on_proposals_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("work", "proposals"), [(2, 1), (3, 2), (5, 2), (6, 3)])
+def test_work_on_proposals_ends(
+    work: int, proposals: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     graph = build("Se:a -> 0:n <- Se:b; n -> R:r")
     net, at = network(graph)
     (core,) = cores(net, demands(graph, at, "integral")[0])
     told, nodes = explanation(graph, net, core), core.nodes(net)
     every = mends(graph, nodes, told, set(), [0, 1, 2, 3])
-    assert len(every) > 2
-    # a trial of the whole model looks at its three bonds: the second one takes more than is left
-    monkeypatch.setattr("bondgraph.passes.causality.mends._WORK", 5)
-    assert mends(graph, nodes, told, set(), [0, 1, 2, 3]) == every[:2]
+    assert len(every) > 3
+    # a trial of the whole model looks at its three bonds; the last one may take more than is left
+    monkeypatch.setattr("bondgraph.passes.causality.mends._WORK", work)
+    assert mends(graph, nodes, told, set(), [0, 1, 2, 3]) == every[:proposals]
 
 
 _TURNS = """1:a when {0} {{ <- Se:E; -> x }}

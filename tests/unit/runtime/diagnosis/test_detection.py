@@ -7,9 +7,18 @@ import math
 
 import numpy as np
 import pytest
+from scipy import stats
 
-from bondgraph.runtime.diagnosis.detection import Detection
+from bondgraph.runtime.diagnosis.detection import (
+    _LEAST,
+    Detection,
+    _excess,
+    _explained,
+    _gone,
+    _without,
+)
 from bondgraph.runtime.diagnosis.history import History
+from bondgraph.runtime.diagnosis.model_error import SHARE
 from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.row_sums import Moves
 from bondgraph.runtime.diagnosis.rows import Average, Part, Row, pause
@@ -286,3 +295,82 @@ def test_what_a_residual_is_beside_the_fault_does_not_go_away_with_it(
     _alarm(other, 30.0)
     assert not any(over(other, 21.0) for _ in range(rows))
     assert not any(over(other, level) for level in 12.0 + 9.0 * np.cos(np.arange(0.0, 0.6, 0.05)))
+
+
+# ----------------------------------------------------------- how probable it is without a fault
+
+
+def _array(*numbers: float) -> Array:
+    return np.array(numbers)
+
+
+def test_what_is_to_be_expected_is_no_excess() -> None:
+    found = _excess(_array(5.0, -5.0, 2.0, -1.5, 0.0), _array(2.0), _array(0.5))
+    assert found.tolist() == [6.0, -6.0, 0.0, 0.0, 0.0]
+
+
+def test_a_move_explains_most_of_what_is_out_or_it_does_not() -> None:
+    """Out are more than some deviations; explained is what leaves no more than half of it."""
+    value = _array(10.0, 10.0, 10.0, -10.0, 0.1, 10.0)
+    moved = _array(9.0, 5.0, 4.9, -5.5, 0.1, math.nan)
+    row = _row(0.0, 0.0)._replace(value=value, bound=np.zeros(6))
+    out, said = _explained(moved, row, _excess(value, row.bound, np.ones(6)), np.ones(6))
+    assert out.tolist() == [1.0, 1.0, 1.0, 1.0, 0.0, 0.0]
+    assert said.tolist() == [1.0, 1.0, -1.0, 1.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_how_much_more_probable_values_are_without_a_fault_is_a_ratio_of_densities(
+    seed: int,
+) -> None:
+    """Of one deviation about zero, and wider about the move by a share of it."""
+    draw = np.random.default_rng(seed)
+    value, moved = 5.0 * draw.standard_normal(8), 5.0 * draw.standard_normal(8)
+    bound, sigma = draw.uniform(0.0, 1.0, 8), draw.uniform(0.5, 2.0, 8)
+    more, _ = _without(moved, value, bound, sigma)
+    for k in range(8):
+        healthy, faulty = (
+            math.copysign(max(abs(x) - bound[k], 0.0), x) / sigma[k]
+            for x in (value[k], value[k] - moved[k])
+        )
+        wide = math.hypot(1.0, SHARE * moved[k] / sigma[k])
+        # the factor 1/wide of a density would favour faults that move more: it is left in
+        expected = stats.norm.logpdf(healthy) - stats.norm.logpdf(faulty, scale=wide)
+        assert more[k] == pytest.approx(expected, rel=1e-9, abs=1e-12)
+
+
+def test_a_row_tells_where_the_move_is_clear_and_something_is_out_with_it_or_without() -> None:
+    bound, sigma = np.full(6, 1.0), np.full(6, 0.5)
+    least = 1.0 + 0.5 * _LEAST
+    moved = _array(least, 1.001 * least, -1.001 * least, 9.0, 9.0, math.nan)
+    value = _array(5.0, 5.0, 5.0, 0.0, 9.0, 5.0)
+    more, tells = _without(moved, value, bound, sigma)
+    assert tells.tolist() == [False, True, True, True, True, False]
+    assert np.isnan(more).tolist() == [False] * 5 + [True]
+    # out neither with the fault nor without it: nothing is told
+    wide = np.full(1, 4.0)
+    assert not _without(_array(4.0 + 0.6 * _LEAST), _array(2.5), wide, sigma[:1])[1].any()
+
+
+def test_that_a_fault_is_gone_is_a_ratio_of_densities_with_its_mean() -> None:
+    """Twice the logarithm; the mean is that of rows without it, by quadrature."""
+    counts = _array(10.0, 4.0, 20.0)
+    means, squares = _array(6.0, -5.0, 0.5), _array(40.0, 25.5, 9.0)
+    excess = _array(1.0, -4.0, 0.0)
+    more, mean = _gone(np.array([counts, counts * means, counts * squares]), excess, 2.0)
+    nodes, weights = np.polynomial.hermite_e.hermegauss(40)
+    weights = weights / weights.sum()
+    for k, center in enumerate((6.0, -5.0, 2.0)):  # the last by what is least
+        spread = math.sqrt(max(squares[k] - means[k] ** 2, 1.0))
+        told = [
+            2.0 * (stats.norm.logpdf(x) - stats.norm.logpdf(x, center, spread))
+            for x in (excess[k], nodes)
+        ]
+        assert more[k] == pytest.approx(told[0], rel=1e-9)
+        assert mean[k] == pytest.approx(float(weights @ told[1]), rel=1e-9)
+
+
+def test_a_fault_of_which_no_row_has_told_has_the_least_mean() -> None:
+    more, mean = _gone(np.zeros((3, 1)), _array(0.0), 2.0)
+    assert more.tolist() == [4.0]  # (0 - 2)^2, of the variance 1
+    assert mean.tolist() == [4.0]  # 1 + 4 - 1
