@@ -160,3 +160,18 @@ def test_a_reciprocal_is_never_zero(pool: Pool) -> None:
     x, k = pool.symbol("x", Kind.FLOW), pool.symbol("k", Kind.PARAM)
     assert solve(pool, pool.div(k, x), x) is None
     assert solve(pool, pool.sub(pool.div(k, x), pool.one), x) is not None
+
+
+def test_a_power_is_undone_where_its_exponent_is_known_not_to_be_zero(pool: Pool) -> None:
+    s = symbols(pool)
+    f, g, c = s["f"], s["g"], s["c"]
+    on = pool.symbol("on", Kind.MODE)
+
+    def root(base: Expr, exponent: Expr) -> Expr | None:
+        found = solve(pool, pool.sub(g, pool.fn("pow", base, exponent)), f)
+        return None if found is None else found.value
+
+    assert root(f, c) is pool.fn("pow", g, pool.power(c, -1))
+    assert root(f, on) is None  # off, the exponent is zero
+    assert root(c, f) is None  # a logarithm would be needed
+    assert root(c, pool.scale(2, f)) is None

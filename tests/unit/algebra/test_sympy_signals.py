@@ -10,7 +10,7 @@ import sympy as sp
 from bondgraph.algebra.derivative import differentiate
 from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.symbolic import t
-from bondgraph.algebra.sympy_signals import Signals, name_of, own_function, undone
+from bondgraph.algebra.sympy_signals import Signals, name_of, own_function, taken, undone
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import Expr, Kind, Pool
 
@@ -115,3 +115,13 @@ def test_what_undoes_tables_powers_and_nothing() -> None:
     assert undone(signals.sympy(p.fn("cbrt", x)), 0, target) == target**3
     assert undone(signals.sympy(p.fn("sign", x)), 0, target) is None
     assert undone(signals.sympy(x), 0, target) is None
+
+
+def test_derivatives_are_taken_and_integrals_are_not() -> None:
+    plain = sp.Function("x", real=True)(t)
+    product = sp.Derivative(t**2 * plain, t)
+    whole = sp.Integral(t, (t, 0, t))
+    assert taken(product) == 2 * t * plain + t**2 * sp.Derivative(plain, t)
+    assert taken(product + whole) == taken(product) + whole
+    assert taken(whole) is whole
+    assert taken(sp.Derivative(t * whole, t)).has(sp.Integral)

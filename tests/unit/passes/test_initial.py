@@ -68,3 +68,35 @@ def test_the_current_of_a_hidden_charge_is_known_where_it_divides() -> None:
     by_hand = pool.sub(pool.der(pool.div(U, pool.add((1, pool.div(i, C)), (1, w)))), z)
     assert is_zero(pool.sub(found.expr, by_hand))
     assert found.order == 0 and found.raw is held
+
+
+def test_a_hidden_charge_is_taken_out_of_a_product_that_is_all() -> None:
+    """From w q = 0 follows w^2 q' = 0, and nothing is divided by w."""
+    pool = Pool()
+    w, i = (pool.symbol(name, Kind.SENSOR) for name in "wi")
+    q = pool.integral(i, pool.symbol("C.q.0", Kind.FREE))
+    found = without_free_integrals(pool, pool.mul(w, q))
+    assert found is not None and found.order == 1
+    assert is_zero(pool.sub(found.expr, pool.mul(w, w, i)))
+
+
+def test_a_hidden_charge_before_which_nothing_stands_is_none() -> None:
+    """Two of them, one times (a + b)^2 - a^2 - 2 a b - b^2: only the other is taken out."""
+    pool = Pool()
+    y, w, i, j = (pool.symbol(name, Kind.SENSOR) for name in "ywij")
+    a, b = pool.symbol("a", Kind.PARAM), pool.symbol("b", Kind.PARAM)
+    square = pool.power(pool.add((1, a), (1, b)), 2)
+    terms = (1, pool.power(a, 2)), (2, pool.mul(a, b)), (1, pool.power(b, 2))
+    nothing = pool.sub(square, pool.add(*terms))
+    first, second = (
+        pool.integral(rate, pool.symbol(f"{name}.q.0", Kind.FREE))
+        for rate, name in ((i, "A"), (j, "B"))
+    )
+    for one, other, rate in ((first, second, j), (second, first, i)):
+        expr = pool.add((1, y), (1, pool.mul(nothing, one)), (1, pool.mul(w, other)))
+        found = without_free_integrals(pool, expr)
+        assert found is not None
+        by_hand = pool.add(
+            (1, pool.mul(w, pool.der(y))), (-1, pool.mul(pool.der(w), y)), (1, pool.mul(w, w, rate))
+        )
+        assert is_zero(pool.sub(found.expr, by_hand))

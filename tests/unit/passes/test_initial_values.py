@@ -112,3 +112,16 @@ def test_a_law_between_two_capacitors_says_how_far_they_are_apart(law: str, coun
         "right -> De:y",
     )
     assert len(told) == count
+
+
+@pytest.mark.parametrize("pairs", [1, 3, 5])
+def test_no_more_than_three_contradictions_are_told(pairs: int) -> None:
+    lines = []
+    for k in range(pairs):
+        lines += [
+            f"Sf:I{k} -> 0:bus{k}",
+            f"bus{k} -> C:A{k}(q0 = 0.2 C) = 0.1 F",
+            f"bus{k} -> C:B{k}(q0 = 0.3 C) = 0.2 F",
+            f"bus{k} -> De:y{k}",
+        ]
+    assert len(_told(*lines)) == min(pairs, 3)

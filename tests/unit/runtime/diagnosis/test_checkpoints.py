@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 import bondgraph
 from bondgraph.compilation import Compilation
+from bondgraph.runtime.diagnosis.checkpoints import Checkpoints, _left, steady
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 
@@ -123,3 +126,111 @@ def test_what_was_followed_is_kept_where_an_alarm_is_of_something_else(off: floa
     (told,) = last.candidates
     assert told.fault == "i" and told.size == pytest.approx(off, rel=0.1)
     assert said[-1].event == "cleared" and 540.0 < said[-1].time < 550.0
+
+
+# ------------------------------------------------------------------ where a drift began
+
+
+def _known(row: int, level: float, limit: float = 2.0) -> Any:
+    """What was known after so many rows: a residual stands at a level, and may move with time.
+
+    Healthy, its variance grows by 0.25 a row; only when `drifting` says so.
+    """
+    return SimpleNamespace(
+        row=row,
+        limits=np.array([[limit], [1.0]]),
+        expected=lambda rows, own: np.full((len(rows), int(own.sum())), level),
+        moves=lambda age, rows, own, drifting: np.full((len(rows), 1), 0.25 * age * len(drifting)),
+    )
+
+
+def _began(level: Callable[[int], float], limit: float = 2.0) -> int | None:
+    """Which row an alarm at row 100 goes back to, of a residual that stood at such levels."""
+    now, known = 100, Checkpoints()
+    known._known = [_known(row, level(row), limit) for row in range(0, now, 10)]
+    known._known.append(_known(now + 10, 1e3))  # what is not known yet
+    rows: list[Any] = [SimpleNamespace(valid=np.array([True, True])) for _ in range(3)]
+    out = np.array([True, False])
+    found = known._before(_known(now, level(now)), rows, out, [0])
+    return None if found is None else found.row
+
+
+def _from(start: float, end: float, pace: float) -> Callable[[int], float]:
+    return lambda row: pace * (min(max(row, start), end) - start)
+
+
+@pytest.mark.parametrize(
+    ("pace", "row"),
+    [
+        # from row 80 on: age a, 20 of it in the drift: (20 p)^2/(a/4), largest at 20 and half of
+        # that at 40; as far as is needed, 9, up to 178 p^2
+        (1.0, 60),
+        (0.6, 60),
+        (0.4, 80),
+        (0.3, None),
+        (-1.0, 60),
+    ],
+)
+def test_a_drift_began_no_later_than_it_stands_out_most(pace: float, row: int | None) -> None:
+    assert _began(_from(80.0, 1e9, pace)) == row
+
+
+@pytest.mark.parametrize(
+    ("end", "row"),
+    [
+        # from row 0 on until `end`; beside row 0 it has moved by `end`, of that in the last half
+        # of the time end - 50: a quarter of it at 66.7
+        (64.0, None),
+        (70.0, 0),
+        (100.0, 0),
+    ],
+)
+def test_a_drift_that_did_not_go_on_in_the_last_half_of_the_time_is_none(
+    end: float, row: int | None
+) -> None:
+    """So fast that only the first row stands out: (p end)^2 / 25 is a little more than 9."""
+    assert _began(_from(0.0, end, 15.2 / end)) == row
+
+
+def test_what_was_not_known_then_or_does_not_move_is_nothing_to_go_back_to() -> None:
+    assert _began(_from(80.0, 1e9, 1.0), limit=np.inf) is None
+    assert _began(lambda _: 0.0) is None
+    known = Checkpoints()
+    rows: list[Any] = [SimpleNamespace(valid=np.array([True, True]))]
+    assert known._before(_known(5, 1.0), rows, np.array([True, False]), [0]) is None
+    known._known = [_known(0, 0.0)]
+    assert known._before(_known(5, 50.0), [], np.array([True, False]), [0]) is None
+    assert known._before(_known(5, 50.0), rows, np.array([False, False]), [0]) is None
+    assert known._before(_known(5, 50.0), rows, np.array([True, False]), [0]) is known._known[0]
+    assert known._before(_known(0, 50.0), rows, np.array([True, False]), [0]) is None
+
+
+def test_what_was_known_is_kept_the_more_seldom_the_longer_that_is_ago() -> None:
+    """Eight from one power of two to the next: those that are sixteen rows old every second one."""
+    known = Checkpoints()
+    for row in range(101):
+        known.add(_known(row, 0.0))
+    kept = [one.row for one in known._known]
+    assert kept[-16:] == list(range(85, 101))
+    assert [row for row in kept if 68 < row <= 84] == [70, 72, 74, 76, 78, 80, 82, 84]
+    assert [row for row in kept if 36 < row <= 68] == [40, 44, 48, 52, 56, 60, 64, 68]
+    assert [row for row in kept if row <= 36] == [0, 8, 16, 24, 32]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_left_is_that_of_weighted_least_squares(seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    (shape, values), weights = draw.standard_normal((2, 12)), draw.uniform(1.0, 3.0, 12)
+    root = np.sqrt(weights)
+    left = np.linalg.lstsq(np.column_stack([root, root * shape]), root * values, rcond=None)[1]
+    assert _left(shape, values, weights) == pytest.approx(float(left[0]))
+    middle = float(weights @ (values - np.average(values, weights=weights)) ** 2)
+    assert _left(np.full(12, 5.0), values, weights) == pytest.approx(middle)
+
+
+def test_a_line_is_steady_and_a_step_in_the_last_half_is_not() -> None:
+    row, ones = np.arange(20.0), np.ones(20)
+    assert steady(row, ones) and steady(0.0 * row, ones)
+    for start in (10, 13, 19):
+        assert not steady(1.0 * (row >= start), ones)
+    assert steady(1.0 * (row >= 2), ones)  # it was early, and most of the rows are alike
