@@ -150,6 +150,115 @@ def test_linear_cost() -> None:
     assert max(f.degree for f in tape.leaves) == 602
 
 
+def test_products_by_parts_of_higher_order() -> None:
+    """s D(D(u)) with D(D(s)) = w is D(D(s u)) - 2 D(D(s) u) + w u."""
+    p = Pool()
+    w, u, zero = p.symbol("w", Kind.SENSOR), p.symbol("u", Kind.INPUT), p.symbol("0", Kind.INITIAL)
+    angle = p.integral(w, zero)
+    twice = p.integral(angle, zero)
+    assert table(p, p.mul(twice, p.der(u, 2))) == {
+        (show(p.mul(twice, u)), 2): "1",
+        (show(p.mul(angle, u)), 1): "-2",
+        (show(p.mul(w, u)), 0): "1",
+    }
+    # once is too little: the third term would be a derivative times a signal
+    form = normalise(p, p.mul(angle, p.der(u, 2)))
+    assert [(t.order, static(t.atom)) for t in form.terms] == [(0, False)]
+
+
+def test_powers_and_products_times_their_rate_and_what_has_no_integral() -> None:
+    p = Pool()
+    x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
+    both = p.fn("tanh", p.mul(x, y))
+    assert table(p, p.mul(p.power(x, 3), p.der(x))) == {("x^4", 1): "0.25"}
+    assert table(p, p.mul(p.power(x, -3), p.der(x))) == {("1/x^2", 1): "-0.5"}
+    assert table(p, p.mul(both, p.der(both))) == {(show(p.power(both, 2)), 1): "0.5"}
+    for factor in (p.power(x, -1), p.fn("atan", x), p.fn("sin", y), p.mul(x, y)):
+        (term,) = normalise(p, p.mul(factor, p.der(x))).terms
+        assert not static(term.atom) and term.order == 0
+    assert table(p, p.mul(p.fn("abs", x), p.der(x))) == {("ssq(x)", 1): "0.5"}
+
+
+def test_branches_of_a_mode_go_on_by_themselves_where_it_is_held() -> None:
+    """if(on, 3 D(x) + y, Int(y)): each part is behind a switch, and its derivative outside."""
+    p = Pool()
+    x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
+    on, zero = p.symbol("on", Kind.MODE), p.symbol("0", Kind.INITIAL)
+    yes, no = p.add((3, p.der(x)), (1, y)), p.integral(y, zero)
+    choice = p.choose(on, yes, no)
+    form = normalise(p, choice, held=True)
+    assert form.exact
+    found = {(t.atom, t.order): t.coefficient for t in form.terms}
+    assert found == {
+        (p.choose(on, x, p.zero), 1): p.num(3),
+        (p.choose(on, y, p.zero), 0): p.one,
+        (p.choose(on, p.zero, no), 0): p.one,
+    }
+    (whole,) = normalise(p, choice).terms
+    assert whole.atom is choice and not whole.static
+    signal = p.choose(p.compare("<", x, y), yes, no)  # which moves with signals
+    (term,) = normalise(p, signal, held=True).terms
+    assert term.order == 0 and not term.static
+
+
+def test_a_product_with_a_rate_is_multiplied_out_to_so_many_terms() -> None:
+    p = Pool()
+    x = p.symbol("x", Kind.SENSOR)
+    inputs = [p.symbol(f"u{k}", Kind.INPUT) for k in range(25)]
+    for count, terms in ((24, 24), (25, 1)):
+        total = p.add(*[(1, u) for u in inputs[:count]])
+        assert len(normalise(p, p.mul(total, p.der(x))).terms) == terms
+    # a power counts as often as it is taken: 5^2 are too many, 4^2 are not
+    for count, terms in ((4, 10), (5, 1)):
+        square = p.power(p.add(*[(1, u) for u in inputs[:count]]), 2)
+        assert len(normalise(p, p.mul(square, p.der(x))).terms) == terms
+
+
+def test_short_coefficients_are_merged_so_that_like_terms_meet() -> None:
+    p = Pool()
+    x = p.symbol("x", Kind.SENSOR)
+    params = [p.symbol(f"a{k}", Kind.PARAM) for k in range(7)]
+    for count, left in ((6, 5), (7, 2)):
+        total = p.add(*[(1, a) for a in params[:count]])
+        (term,) = normalise(p, p.sub(p.mul(total, x), p.mul(params[0], x))).terms
+        assert len(term.coefficient.args) == left
+
+
+def test_how_much_work_a_residual_is() -> None:
+    """D(a Int(D(x))): a form of one term for each of six parts, put together four times.
+
+    What was looked at before is not looked at again.
+    """
+    p = Pool()
+    x, a, zero = p.symbol("x", Kind.SENSOR), p.symbol("a", Kind.PARAM), p.symbol("0", Kind.INITIAL)
+    expr = p.der(p.mul(a, p.integral(p.der(x), zero)))
+    assert normalise(p, expr, limit=10).tape is None
+    assert normalise(p, expr, limit=9).tape is not None
+    squares = p.add((1, p.power(x, 2)), (1, p.integral(p.der(x), zero)))
+    sine = p.fn("sin", p.add((1, squares), (-1, p.power(x, 2))))
+    assert rewritten(p, sine, limit=3) is sine
+    assert rewritten(p, sine) is p.fn("sin", p.integral(p.der(x), zero))
+
+
+def test_initial_values_that_are_known_are_put_in() -> None:
+    p = Pool()
+    x, q0 = p.symbol("x", Kind.SENSOR), p.symbol("q0", Kind.INITIAL)
+    form = normalise(p, p.integral(x, q0), initials={q0: p.num(7)})
+    assert {(show(t.atom), t.order): show(t.coefficient) for t in form.terms} == {
+        ("1", 0): "7", ("x", -1): "1",
+    }  # fmt: skip
+    assert rewritten(p, p.integral(x, q0), initials={q0: p.zero}) is p.integral(
+        x, p.symbol("0", Kind.INITIAL)
+    )
+
+
+def test_the_rate_of_a_constant_is_zero() -> None:
+    p = Pool()
+    x, a = p.symbol("x", Kind.SENSOR), p.symbol("a", Kind.PARAM)
+    expr = p.add((1, p.mul(x, p.der(p.fn("exp", a)))), (2, x))
+    assert table(p, expr) == {("x", 0): "2"}
+
+
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32))
 def test_rewriting_keeps_the_value(seed: int) -> None:
