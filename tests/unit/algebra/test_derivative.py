@@ -13,10 +13,15 @@ from typing import Any
 
 import mpmath as mp
 import pytest
+from scipy.optimize import brentq
 
 from bondgraph.algebra.derivative import Jets, TooManyOperations, differentiate, operations, partial
-from bondgraph.algebra.numeric import evaluate
-from bondgraph.ir.expr import Expr, Kind, Pool, Root
+from bondgraph.algebra.implicit import invert
+from bondgraph.algebra.interpolation import interpolation
+from bondgraph.algebra.numeric import EXACT, evaluate
+from bondgraph.field.evaluation import Evaluated
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, Root, topological
+from bondgraph.ir.tables import turned
 
 p = Pool()
 x, y = (p.symbol(n, Kind.SENSOR) for n in "xy")
@@ -167,3 +172,109 @@ def test_a_root_counts_as_ten_evaluations_of_its_equation() -> None:
     assert operations([node]) == 10 * operations([zero]) > 0
     assert operations([plus(node, y)]) == 10 * operations([zero]) + 2
     assert operations([p.der(both)]) == 0
+
+
+# ------------------------------------------------- maps and roots, whose slopes hold themselves
+
+
+#: z = x + 10 y + x y, and 50 (x - 1) more from x = 1 on; measured to x = 3 and from y = -1/2 to 2.
+_MAP = tuple(
+    tuple(Fraction(v) for v in row)
+    for row in ((0, -0.5, 0, 2), (0, -5, 0, 20), (1, -4.5, 1, 23), (3, 96.5, 103, 129))
+)
+p.tables["map.csv"] = p.tables["map.csv'"] = _MAP
+p.tables["map.csv''"] = turned(_MAP)
+p.tables["fall.csv"] = p.tables["fall.csv'"] = (
+    _MAP[0], *[(row[0], *[-v for v in row[1:]]) for row in _MAP[1:]]
+)  # fmt: skip
+p.tables["curve.csv'"] = tuple((Fraction(v), Fraction(u)) for u, v in ((0, 0), (1, 2), (3, 3)))
+
+
+def _value(expr: Expr, symbols: dict[Expr, float]) -> float | None:
+    """A number, tables and roots looked up; NaN is none."""
+
+    def function(node: Expr, args: list[Any]) -> Any:
+        if node.name.startswith("table:"):
+            name = node.name.removeprefix("table:")
+            return interpolation(p.rows(name), name.endswith("'"))(*args)
+        return EXACT[Op.FN](node, args)
+
+    def root(node: Expr, args: list[Any]) -> float:
+        inside = dict(zip(node.root.places, args, strict=True))
+        zero = node.root.zero
+        return float(
+            brentq(lambda u: _value(zero, {**inside, node.root.unknown: u}), -99, 99, xtol=1e-15)
+        )
+
+    point: Evaluated[Any] = Evaluated({**EXACT, Op.FN: function, Op.ROOT: root}, symbols.get)
+    found = point.value(expr)
+    return None if found is None or found != found else float(found)
+
+
+_ROOT = invert(p, p.sub(x, p.add((1, y), (1, p.power(y, 3)))), y, lambda _: None)
+_TWO = invert(p, plus(p.mul(a, x), p.fn("exp", y), p.power(y, 3)), y, lambda _: 1.0)
+assert _ROOT is not None and _TWO is not None
+
+ABOUT: dict[str, tuple[Expr, Callable[[Any, Any], Any]]] = {
+    "map": (p.fn("table:map.csv", x, y), lambda x, y: x + 10 * y + x * y + 50 * (x - 1)),
+    "map in its first cell": (
+        p.fn("table:map.csv", p.mul(x, y), y), lambda x, y: x * y + 10 * y + x * y**2
+    ),
+    "map that falls": (
+        p.fn("table:fall.csv", x, y), lambda x, y: -(x + 10 * y + x * y + 50 * (x - 1))
+    ),
+    "map of one that moves": (
+        p.fn("table:map.csv", p.num(2), y), lambda x, y: 52 + 12 * y
+    ),
+    "beyond its first input": (p.fn("table:map.csv", p.scale(9, x), y),
+                               lambda x, y: 103 + 13 * y),
+    "first input of a map": (
+        p.fn("table:map.csv'", p.add((10, x), (1, y)), y),
+        lambda x, y: (10 * x - 9 * y + 50) / (51 + y),
+    ),
+    "first input of one that falls": (
+        p.fn("table:fall.csv'", p.add((-10, x), (-1, y)), y),
+        lambda x, y: (10 * x - 9 * y + 50) / (51 + y),
+    ),
+    "second input of a map": (
+        p.fn("table:map.csv''", p.scale(15, x), x), lambda x, y: (14 * x - 50 * (x - 1)) / (10 + x)
+    ),
+    "curve backwards": (p.fn("table:curve.csv'", p.scale(2, x)), lambda x, y: 1 + 2 * (2 * x - 2)),
+    "root": (_ROOT, lambda x, y: mp.findroot(lambda u: u + u**3 - x, mp.mpf("0.7"))),
+    "root of two": (
+        _TWO, lambda x, y: mp.findroot(lambda u: mp.mpf("1.75") * x + mp.exp(u) + u**3, mp.mpf(-1))
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("name", ABOUT)
+def test_a_derivative_of_a_map_or_a_root_is_that_of_the_course(name: str, order: int) -> None:
+    expr, law = ABOUT[name]
+    numbers = {x: float(_X[0]), y: float(_Y[0]), a: float(_A)}
+    with mp.workdps(60):
+        one, other = _course(_X), _course(_Y)
+        own = float(law(one(0), other(0)))
+        expected = float(mp.diff(lambda t: law(one(t), other(t)), 0, order))
+    assert _value(expr, numbers) == pytest.approx(own, rel=1e-9)
+    rates = {
+        p.der(s, k): p.num(_at_zero(course, k))
+        for s, course in ((x, _X), (y, _Y))
+        for k in range(1, order + 1)
+    }
+    (found,) = p.substitute([differentiate(p, expr, order)], rates)
+    assert _value(found, numbers) == pytest.approx(expected, rel=1e-8, abs=1e-10)
+
+
+@pytest.mark.parametrize("at", [-0.5, 3.5])
+def test_beyond_its_ends_a_table_stands_still_and_backwards_it_has_no_slope(at: float) -> None:
+    for name, slope in (("bent.csv", 0.0), ("curve.csv'", None)):
+        (found,) = p.substitute([differentiate(p, p.fn(f"table:{name}", x))], {p.der(x): p.one})
+        assert _value(found, {x: at}) == slope
+
+
+def test_a_slope_of_a_map_at_numbers_holds_no_map() -> None:
+    """Where both are knots the value is a number; where one moves it is looked up."""
+    slope = partial(p, p.fn("table:map.csv", x, p.num(0)), x)
+    assert [_value(slope, {x: at}) for at in (-1, 0.5, 2, 4)] == [0, 1, 51, 0]
+    assert not any(n.op is Op.FN for n in topological([slope]))

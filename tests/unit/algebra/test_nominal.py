@@ -63,3 +63,35 @@ def test_a_difference_of_which_less_than_a_quarter_of_its_terms_is_left_cancels(
     sums = [pool.add((2, a), (1, pool.num(-k))) for k in (5, 3)]
     others = [pool.add((2, a), (-1, x)), pool.mul(a, x), pool.num(0), a]
     assert [nominal.cancels(e) for e in (*sums, *others)] == [True, *[False] * 5]
+
+
+def test_sizes_are_nominal_values_and_one_where_there_is_none() -> None:
+    text = "bg 1\nmodel M { param a = 3; param b = 6; param s : Ohm; Se:U -> R:a\n sensor y = U }"
+    graph = Compilation(Source("m.bg", text)).graph
+    pool, s = graph.pool, {v.name: v.symbol for v in graph.values}
+    a, b, free = s["a"], s["b"], s["s"]
+    signal = graph.inputs[0].symbol
+    nominal = Nominal(graph)
+    balance = pool.add((2, a), (-1, b))
+    for expr, size in (
+        (a, 3.0), (pool.neg(b), -6.0), (balance, 0.0), (pool.mul(a, b), 18.0), (free, 1.0),
+        (pool.mul(free, balance), 0.0), (pool.mul(free, pool.power(a, -1)), 1.0), (signal, 1.0),
+        (pool.add((1, pool.mul(signal, balance)), (3, balance)), 0.0),
+        (pool.add((1, pool.mul(signal, balance)), (3, a)), 1.0), (pool.num(Fraction(1, 2)), 0.5),
+        (pool.der(a), 0.0), (pool.der(signal), 1.0), (pool.der(pool.mul(signal, balance)), 0.0),
+        (pool.div(a, balance), 1.0),
+    ):  # fmt: skip
+        assert nominal.size(expr) == size, expr
+        assert nominal.vanishes(expr) == (size == 0.0)
+
+
+def test_the_value_that_a_machine_has_replaces_that_of_the_model() -> None:
+    text = "bg 1\nmodel M { param a = 3; param b = 2*a; Se:U -> R:a\n sensor y = U }"
+    graph = Compilation(Source("m.bg", text)).graph
+    pool, s = graph.pool, {v.name: v.symbol for v in graph.values}
+    a, b = s["a"], s["b"]
+    own, other = Nominal(graph), Nominal(graph, {"a": 5.0})
+    assert (own.value(a), own.value(b), other.value(a), other.value(b)) == (3.0, 6.0, 5.0, 10.0)
+    balance = pool.sub(b, pool.num(6))
+    assert own.vanishes(balance) and not other.vanishes(balance)
+    assert Nominal(graph, {"b": 7.0}).value(b) == 7.0
