@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from bondgraph.runtime.diagnosis import origins
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.origin_fit import Fit
 from bondgraph.runtime.diagnosis.origins import Origins, Readings
 from bondgraph.runtime.diagnosis.remembered import Memory
-from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
 
 _STEP, _EVERY = 0.1, 5  # s between samples, of which so many are a row
@@ -50,14 +51,14 @@ class _Watch:
 
         monkeypatch.setattr(origins, "fitted", fitted)
 
-    def row(self, samples: Array | None = None) -> Any:
+    def row(self, samples: Array | None = None, valid: bool = True) -> Any:
         """What settles with one row more."""
         own = np.ones((_EVERY, 3)) if samples is None else samples
         time = _STEP * (len(self.past) * _EVERY + np.arange(_EVERY))
         self.origins.take(time, own, self.past, again=False)
         ones, engine = np.ones(2), self.origins._engine
         self.past.append(
-            Row(float(time[-1]), own, engine, ones.copy(), ones > 0, ones.copy(), ones,
+            Row(float(time[-1]), own, engine, ones.copy(), np.full(2, valid), ones.copy(), ones,
                 np.zeros((0, 2)))
         )  # fmt: skip
         return self.settled()
@@ -119,8 +120,9 @@ def test_a_start_is_used_once_it_is_known_or_nothing_explains_what_is_seen(
     # what is explained teaches the history, of the residuals that remember
     taught = one.history.taught
     assert len(taught) == (7 if rows == 7 else 0)
-    for value, weight, _, forget in taught:
-        assert value.tolist() == [1.0, 1.0] and weight[0] > 0.0 == weight[1] and forget == 1.0
+    for (value, own_weight, _, forget), row in zip(taught, one.past, strict=False):
+        assert value.tolist() == [1.0, 1.0] and forget == 1.0
+        assert own_weight.tolist() == [weight(row, _LIMITS[:, 0])[0], 0.0] and own_weight[0] > 0.0
     assert one.history.narrowed == ([[]] if rows == 7 else [])
 
 
@@ -186,6 +188,85 @@ def test_what_waits_is_told_by_parameters_or_by_signals() -> None:
     assert words(0) == "what x and y are" and words(2) == "what x is"
     assert words(1) == "where b began" and words(0, 2) == "what x and y are"
     assert words(0, 1) == "what x and y are and where b began"
+
+
+@pytest.mark.parametrize(("level", "rows"), [(2.0, 24), (3.5, 16)])
+def test_as_many_rows_as_are_looked_at_are_enough(
+    level: float, rows: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Four of the warm-up, and twenty or, where it is hopeless, twelve."""
+    one = _Watch(monkeypatch, level=level)
+    found = None
+    while found is None:
+        one.origins._groups[0].next = 0  # each row is looked at
+        found = one.row()
+    assert len(one.past) == rows == one.looks[-1][0]
+
+
+def test_a_row_counts_once_however_often_it_is_asked_about(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    one = _Watch(monkeypatch)
+    for _ in range(30):
+        assert one.row() is None and one.settled() is None
+    assert [after for after, _ in one.looks] == [7, 8, 10, 12, 15, 18, 22, 27]
+
+
+def test_a_fit_that_fails_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    one, tries = _Watch(monkeypatch), []
+
+    def fails(case: Any) -> Fit:
+        tries.append(len(case.rows))
+        raise np.linalg.LinAlgError
+
+    monkeypatch.setattr(origins, "fitted", fails)
+    assert one.until(10) is None and tries == [7, 8, 10]
+
+
+def test_a_start_that_is_known_by_its_deviation_leaves_room_for_three_of_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Two starts of deviations 2 and 3, and residuals that move by 1 and 10 with them."""
+    one = _Watch(monkeypatch, doubt=0.1)
+    starts = tuple(Hypothesis(name, "start", "V", 1.0, False) for name in ("x", "y"))
+    slopes = np.array([[1.0, 4.0], [10.0, 5.0]])
+    given = origins.fitted
+
+    def fitted(case: Any) -> Fit:
+        found = given(case)
+        rows = [row._replace(slopes=slopes, bound=row.bound.copy()) for row in found.rows]
+        spread = np.diag([4.0, 9.0])
+        return found._replace(tolerated=starts, starts=starts, spread=spread, rows=rows)
+
+    monkeypatch.setattr(origins, "fitted", fitted)
+    settled = None
+    while settled is None:
+        settled = one.row()
+    for row in settled.rows:  # r1 remembers, r2 does not
+        assert row.bound.tolist() == pytest.approx([1.0 + 3.0 * np.hypot(2.0, 30.0), 1.0])
+    assert one.history.narrowed == [[20.0, 30.0]]
+
+
+@pytest.mark.parametrize(("valid", "rows"), [(True, 5), (False, 1)])
+def test_a_start_that_has_gone_on_waits_for_its_slopes_alone(
+    valid: bool, rows: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After a gap in which signals have gone on: until more than the warm-up has passed."""
+    one, replays = _Watch(monkeypatch, _MEMORY._replace(unknown=())), []
+
+    def replayed(case: Any, start: Array, tolerated: object) -> tuple[Any, list[Row]]:
+        replays.append((len(case.rows), start.tolist()))
+        return None, [row._replace(value=row.value.copy()) for row in case.rows]
+
+    monkeypatch.setattr(origins, "replayed", replayed)
+    for _ in range(3):
+        assert one.row() is None
+    one.origins.restart([])
+    for number in range(1, rows + 1):
+        found = one.row(5.0 * np.ones((_EVERY, 3)), valid or number > 1)
+        assert (found is not None) == (number == rows) and not one.origins.lost.any()
+    assert replays == [(rows, [1.0, 5.0, 5.0])]  # it began with 1, the others with what they are
+    assert one.looks == [] and not one.origins.waiting.any() and not one.origins.looking
 
 
 # ------------------------------------------------------------------------------- readings
