@@ -164,6 +164,23 @@ def test_a_ring_of_like_junctions_is_one_junction(ring: str, what: str) -> None:
     assert f"what {what} it carries is not determined" in note.message
 
 
+@pytest.mark.parametrize("closes", ["c -> a", "a -> c"])
+def test_a_bond_that_closes_a_ring_has_its_stroke_at_the_junction_that_comes_later(
+    closes: str,
+) -> None:
+    """Whichever way it is drawn; that junction is the reason."""
+    graph = assign(build(f"Se:u -> 1:i -> 0:a -> 0:b -> 0:c; {closes}; c -> R:r"), "integral",
+                   Report())  # fmt: skip
+    assert graph is not None
+    nodes = graph.graph.nodes
+    ((bond, stroke),) = [
+        (b, s) for b, s in zip(graph.graph.bonds, graph.strokes, strict=True)
+        if s.reason.cause == "ring"
+    ]  # fmt: skip
+    at = bond.head if stroke.at == "head" else bond.tail
+    assert nodes[at.node].path == "c" and stroke.reason.node == at.node
+
+
 def test_resistances_in_series_form_a_loop_and_a_storage_between_them_opens_it() -> None:
     assert [len(loop) for loop in causal("Se:u -> 1:a -> R:r; a -> R:s").loops] == [2]
     assert causal("Se:u -> 1:a -> R:r; a -> 0:b -> R:s; b -> C:c").loops == ()

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bondgraph.frontend.incidence import read_table
-from bondgraph.structural.choose import choose
+from bondgraph.structural.choose import choose, demands
 from bondgraph.structural.hitting import diagnoses, minimal_hitting_sets
 from bondgraph.structural.placement import Candidate, Placing, place
 from bondgraph.structural.structural_isolability import isolability
@@ -90,6 +90,39 @@ def test_the_cheapest_choice_tells_as_much(rows: list[list[bool]], data: st.Data
     assert _told([rows[k] for k in found.chosen]) == everything
     assert found.least
     assert sum(prices[k] for k in found.chosen) == min(enough)
+
+
+@pytest.mark.parametrize(("most", "least"), [(12, True), (11, False)])
+def test_a_choice_is_the_least_where_the_problem_is_small(
+    most: int, least: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Three residuals and four demands: that each fault is seen, and each without the other."""
+    monkeypatch.setattr("bondgraph.structural.choose._EXACT", most)
+    assert choose(np.array([[1, 0], [0, 1], [1, 1]], dtype=bool)) == ((0, 1), least)
+
+
+def test_without_a_proof_what_the_others_make_needless_is_dropped(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The first sees most for its cost, and is not needed beside the two that must be there."""
+    monkeypatch.setattr("bondgraph.structural.choose._EXACT", 0)
+    sees = np.array([[1, 1, 1, 1, 0, 0], [1, 1, 0, 0, 1, 0], [0, 0, 1, 1, 0, 1]], dtype=bool)
+    met = demands(sees)
+    assert met.shape[0] == 3
+    found = choose(sees)
+    told = _told(sees.tolist())
+    for row in found.chosen:  # each of them is needed
+        rest = [sees[k].tolist() for k in found.chosen if k != row]
+        assert _told(rest) != told
+    assert _told([sees[k].tolist() for k in found.chosen]) == told and not found.least
+
+
+def test_of_equal_residuals_the_cheapest_and_of_these_the_first_is_chosen() -> None:
+    same = np.array([[1, 0], [1, 0], [0, 1], [0, 1]], dtype=bool)
+    assert choose(same).chosen == (0, 2)
+    assert choose(same, [2.0, 1.0, 1.0, 1.0]).chosen == (1, 2)
+    assert choose(same, [2.0, 1.0, 3.0, 2.0]).chosen == (1, 3)
+    assert choose(np.zeros((2, 3), dtype=bool)) == ((), True)
 
 
 # --------------------------------------------------------------------------------------- sensors
