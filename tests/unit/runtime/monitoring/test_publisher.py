@@ -22,10 +22,15 @@ class _Client:
 
     def __init__(self) -> None:
         self.lines: list[str] = []
+        self.topics: list[str] = []
+        self.early = False  # whether messages are taken before their number is known
 
     def publish(self, topic: str, line: str, qos: int, retain: bool) -> Any:
         assert (qos, retain) == (1, True)
         self.lines.append(line)
+        self.topics.append(topic)
+        if self.early:
+            self.take(len(self.lines))
         return SimpleNamespace(mid=len(self.lines))
 
     def take(self, mid: int, failed: bool = False) -> None:
@@ -100,6 +105,60 @@ def test_a_broker_that_is_away_is_not_waited_for(made: tuple[Publisher, _Link]) 
     start = time.monotonic()
     assert sender.close(30.0) == 1
     assert time.monotonic() - start < 15.0
+
+
+def test_how_the_monitor_is_stands_beside_its_verdicts(made: tuple[Publisher, _Link]) -> None:
+    """Said at once where there is a connection, else with the next one, and then anew each time."""
+    sender, link = made
+    joined = sender._joined
+    joined(link.client)  # there is nothing to say yet
+    link.connected = False
+    sender.present("watching")
+    assert link.client.lines == []
+    joined(link.client)
+    link.connected = True
+    sender.present("ended")
+    joined(link.client)
+    assert link.client.lines == ["watching", "ended", "ended"]
+    assert set(link.client.topics) == {"robot/verdicts/monitor"}
+    sender.publish(5, "line 5")
+    assert link.client.topics[-1] == "robot/verdicts"
+
+
+def test_the_end_waits_until_the_last_word_is_taken(made: tuple[Publisher, _Link]) -> None:
+    sender, link = made
+    sender.present("ended")
+    start = time.monotonic()
+    assert sender.close(0.3) == 0  # no line is left, but a word
+    assert time.monotonic() - start >= 0.3
+    link.client.take(1)
+    start = time.monotonic()
+    assert sender.close(30.0) == 0 and time.monotonic() - start < 15.0
+
+
+def test_what_is_taken_before_its_number_is_known_is_not_waited_for(
+    made: tuple[Publisher, _Link],
+) -> None:
+    sender, link = made
+    link.client.early = True
+    sender.present("watching")
+    sender.publish(5, "line 5")
+    sender.publish(6, "line 6")
+    assert sender.taken == 6
+    start = time.monotonic()
+    assert sender.close(30.0) == 0 and time.monotonic() - start < 15.0
+
+
+def test_who_is_refused_does_not_wait(made: tuple[Publisher, _Link]) -> None:
+    sender, link = made
+    sender.publish(5, "line 5")
+    link.refused = LogError("broker", None, "no")
+    start = time.monotonic()
+    assert sender.close(30.0) == 1 and time.monotonic() - start < 15.0
+    with pytest.raises(LogError):
+        sender.check()
+    with pytest.raises(LogError):
+        sender.news()
 
 
 def test_a_broker_that_takes_no_verdict_is_told_of(made: tuple[Publisher, _Link]) -> None:
