@@ -3,12 +3,15 @@
 import pytest
 from flint import arb, nmod
 
+from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.outline import highest_order
-from bondgraph.exact.plant import Plant
+from bondgraph.exact.plant import _LOOSE, _STILL, Plant
+from bondgraph.exact.plant_draws import ATTEMPTS, Draws
 from bondgraph.exact.trajectory import ExactUnavailable
 from bondgraph.field.prime import inverse
 from bondgraph.field.series import Series
+from bondgraph.field.sparse import Contradiction
 from bondgraph.ir.expr import Expr
 from tests.unit.exact.models import FLEXIBLE, GEAR, MOTOR, TANKS, graph, symbols
 
@@ -297,3 +300,36 @@ model Body { param m = 1; param b = 2; param c = 3; param d = 5
         assert vanish(evaluate([law], sample, N - 2)[0])
     speed = model.nodes[[n.path for n in model.nodes].index("r")].ports[0].flow
     assert all(sample.value(speed)[: N - 2])  # it moves, in every order
+
+
+def test_what_contradicts_is_drawn_again_then_at_rest_and_then_left_out_law_by_law(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A plant of real numbers that is never found: what is tried, and with which laws."""
+    tried: list[tuple[bool, int]] = []
+
+    def fails(self: object, seed: int, order: int, *rest: object, **more: object) -> None:
+        plant = rest[3]
+        assert isinstance(plant, Assembly)
+        tried.append((bool(more["still"]), len({law[0] for law in plant.laws})))
+        raise Contradiction(0, plant.laws[0][0] if plant.laws else -1)
+
+    model = graph(TANKS)
+    plant = Plant(model)
+    laws = len({law[0] for law in plant.structure.assembly.laws})
+    monkeypatch.setattr(Draws, "trajectory", fails)
+    with pytest.raises(ExactUnavailable):
+        plant.trajectory(1, 2)
+    assert 1 < laws <= _LOOSE  # so that in the end none is left
+    rests = [(True, laws - out) for out in range(laws + 1) for _ in range(_STILL)]
+    assert tried == [(False, laws)] * ATTEMPTS + rests
+    count = len(tried)
+    for fault in (None, "k1"):  # it is hopeless, with a fault as well
+        with pytest.raises(ExactUnavailable):
+            plant.trajectory(2, 2, fault)
+    assert len(tried) == count
+    other = Plant(model)
+    for fault in ("k1", "k1", None):  # that none is found with a fault says nothing of others
+        with pytest.raises(ExactUnavailable):
+            other.trajectory(2, 2, fault)
+    assert len(tried) == 4 * count

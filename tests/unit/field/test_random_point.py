@@ -19,7 +19,9 @@ def everything(_: Expr) -> bool:
     return True
 
 
-@pytest.mark.parametrize("value", [Fraction(3), Fraction(-7), Fraction(2, 3), Fraction(-5, 4)])
+@pytest.mark.parametrize(
+    "value", [Fraction(3), Fraction(-7), Fraction(1, 2), Fraction(2, 3), Fraction(-5, 4)]
+)
 def test_a_residue_times_its_denominator_is_the_numerator(value: Fraction) -> None:
     assert residue(value) * value.denominator % P == value.numerator % P
     assert 0 <= residue(value) < P
