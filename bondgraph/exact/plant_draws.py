@@ -142,8 +142,9 @@ class Draws:
         numbers: Numbers,
         part: Assembly,
         solver: Solver = solve,
-        still: bool = False,
-        joint: int = 0,
+        *,
+        still: bool,
+        joint: int,
         read: frozenset[Expr] | None = None,
         turned: bool = False,
     ) -> Trajectory:

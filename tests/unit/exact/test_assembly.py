@@ -133,6 +133,8 @@ def test_bonds_between_junctions_have_names_and_no_others() -> None:
     names = {s.symbol.name for s in assemble(graph(FLEXIBLE)).place if "->" in s.symbol.name}
     assert {name.partition(".")[0] for name in names} == {"motor->shaft", "shaft->load"}
     assert len(names) == 4  # an effort and a flow of each
+    assert {sign for s, (_, sign) in assemble(graph(FLEXIBLE)).place.items()
+            if "->" in s.symbol.name} == {1}  # fmt: skip
     model = graph(MOTOR)
     assert not [s for s in assemble(model).place if "->" in s.symbol.name]
 

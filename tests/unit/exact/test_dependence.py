@@ -140,3 +140,16 @@ def test_an_integral_on_a_trajectory_begins_at_the_declared_value() -> None:
     assert evaluate([r], t, 2)[0][1] != 0
     seen = sensitivities(r, t)
     assert {k.symbol.name: v for k, v in seen.orders.items()} == {"w1": 1, "w2": -1, "T": 0}
+
+
+def test_what_holds_at_once_depends_alike_on_a_course_and_on_exponentials() -> None:
+    """U + Re w - 3 w is a sum of products: the resistance counts, and no derivative does."""
+    model = graph(MOTOR)
+    p, s = model.pool, symbols(model)
+    r = p.add((1, s["U"]), (1, p.mul(s["Re"], s["w"])), (-3, s["w"]))
+    plant = Plant(model)
+    for sample in (plant.trajectory(1, 4), plant.exponential(2)):
+        found = sensitivities(r, sample)
+        assert {v.symbol.name for v, hit in found.depends.items() if hit} == {"U", "Re", "w"}
+        assert {v.symbol.name: k for v, k in found.orders.items()} == {"U": 0, "w": 0}
+        assert found.starts == () and {v.symbol.name for v in found.lasting} >= {"U", "Re", "w"}

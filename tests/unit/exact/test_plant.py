@@ -9,7 +9,7 @@ from bondgraph.exact.outline import highest_order
 from bondgraph.exact.plant import _LOOSE, _STILL, Plant
 from bondgraph.exact.plant_draws import ATTEMPTS, Draws
 from bondgraph.exact.trajectory import ExactUnavailable
-from bondgraph.field.prime import inverse
+from bondgraph.field.prime import PrimeField, inverse
 from bondgraph.field.series import Series
 from bondgraph.field.sparse import Contradiction
 from bondgraph.ir.expr import Expr
@@ -286,15 +286,16 @@ def test_an_over_determined_plant_has_no_trajectory() -> None:
         plant.trajectory(1, 2)
 
 
-@pytest.mark.parametrize("faults", [[], ["b"], ["c"], ["b", "c"], ["m", "d"]])
+@pytest.mark.parametrize("faults", [[], ["b"], ["c"], ["b", "c"], ["m", "d"], ["g"]])
 def test_laws_hold_while_what_stands_before_derivatives_varies(faults: list[str]) -> None:
     model = graph("""
-model Body { param m = 1; param b = 2; param c = 3; param d = 5
-    1:v { <- Se:F; -> I:m; -> R:r { e = b*f + c*der(f) + d*der(der(f)) + der(b*f) }; -> Df:y }
+model Body { param m = 1; param b = 2; param c = 3; param d = 5; param g = 7
+    1:v { <- Se:F; -> I:m; -> R:r { e = b*f + c*der(f) + d*der(der(f)) + der(b*f) + g }
+        -> Df:y }
 }""")
     plant, s = Plant(model), symbols(model)
     sample = plant.trajectory(5, N, faults=faults).truths
-    for name in "mbcd":
+    for name in "mbcdg":
         assert any(sample.value(s[name])[1:]) == (name in faults)
     for _, law in plant.structure.assembly.laws:
         assert vanish(evaluate([law], sample, N - 2)[0])
@@ -333,3 +334,11 @@ def test_what_contradicts_is_drawn_again_then_at_rest_and_then_left_out_law_by_l
         with pytest.raises(ExactUnavailable):
             other.trajectory(2, 2, fault)
     assert len(tried) == 4 * count
+
+
+def test_modes_are_off_or_on_unless_they_are_told() -> None:
+    model = graph(MOTOR.replace("Se:U", "input on : bool\n    sensor z = if(on, U, 0)\n    Se:U"))
+    draws, on = Draws(Plant(model).structure), symbols(model)["on"]
+    drawn = [draws.constants(1, k, {}, PrimeField(1))[on] for k in range(30)]
+    assert sorted({value for (value,) in drawn}) == [0, 1]
+    assert all(draws.constants(1, k, {on: k}, PrimeField(1))[on] == [k] for k in (0, 1))

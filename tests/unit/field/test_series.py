@@ -323,3 +323,18 @@ def test_tables_of_one_argument_have_one_slope_and_maps_two() -> None:
     assert same(f, value, [f.fraction(Fraction(51, 2)), f.fraction(Fraction(111, 2))], 2)
     assert same(f, by_x, [15, 15], 2)  # 5 (y + 3), and y rises by 3
     assert same(f, by_y, [f.fraction(Fraction(17, 2)), 10], 2)
+
+
+@kinds
+@pytest.mark.parametrize("name", sorted(set(_ONE) - {"sign", "abs"}))
+def test_a_function_of_what_does_not_move_is_one_number(f: Numbers, name: str) -> None:
+    """Its derivatives are not computed: most of what a plant has does not move."""
+    done = 0
+    for seed in range(20):
+        try:
+            found = series.function(f, name, random_series(f, seed, 1), N)
+        except Undefined:
+            continue
+        assert len(found) == 1
+        done += 1
+    assert done > 1
