@@ -9,9 +9,9 @@ from itertools import product
 import pytest
 
 from bondgraph.compilation import Compilation
-from bondgraph.ir.causal import CausalGraph
+from bondgraph.ir.causal import CausalGraph, Reason
 from bondgraph.ir.expr import Pool
-from bondgraph.passes.causality.assign import _greedy, assign
+from bondgraph.passes.causality.assign import _exact, _free_choices, _greedy, assign
 from bondgraph.passes.causality.cores import oblige
 from bondgraph.passes.causality.repair import Matching
 from bondgraph.passes.causality.rules import demands, network
@@ -396,6 +396,43 @@ def test_an_assignment_that_keeps_all_rules_is_its_own_witness(text: str) -> Non
             if value < 0 and bond not in witness.loose:
                 assert witness.value(bond) == hint[bond]
     assert found > 1
+
+
+_TREES = (
+    "1:b -> 0:a; 1:c -> a; a -> R:r; b -> R:s; c -> R:t; b -> R:v; c -> R:w",
+    "1:b -> 0:a; a -> R:r; a -> R:x; b -> R:s; b -> R:v",
+    "1:a -> 0:b -> 1:c; a -> R:r; b -> R:p; c -> R:s; c -> R:q",
+)
+
+
+@pytest.mark.parametrize("text", _TREES)
+@pytest.mark.parametrize("value", [0, 1])
+def test_in_a_tree_with_losses_any_choice_leads_to_an_assignment(text: str, value: int) -> None:
+    """Each junction has a bond of its own that may take whatever is left."""
+    graph = build(text)
+    net, _ = network(graph)
+    for bond in range(net.bonds):
+        strokes = Strokes(net)
+        assert strokes.put(bond, value, Reason("chosen", 0)) is None
+        assert _greedy(strokes, [])
+        assert all(end >= 0 for end in strokes.taken)
+        assert strokes.value[bond] == value and -1 not in strokes.value
+        assert broken_rules(graph, tuple(strokes.value), set()) == []
+
+
+@pytest.mark.parametrize("text", [*_TREES, *_RINGS[1:]])
+def test_the_exact_search_grants_the_wishes_of_what_is_free(text: str) -> None:
+    """Beside a bond of two resistances, of which the first has its way: it gives the effort."""
+    graph = build(f"{text}; R:one -> R:two")
+    net, at = network(graph)
+    musts, wishes = demands(graph, at, "integral")
+    free = _free_choices(graph, at)
+    strokes = _exact(net, musts, wishes, free, [-1] * net.bonds)
+    assert strokes is not None and -1 not in strokes.value
+    assert broken_rules(graph, tuple(strokes.value), set()) == []
+    assert strokes.value[-1] == 1  # at the other one
+    reason = strokes.reason[-1]
+    assert reason is not None and graph.nodes[reason.node].path == "one"
 
 
 def test_nothing_heavy_is_imported() -> None:
