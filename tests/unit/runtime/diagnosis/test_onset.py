@@ -10,7 +10,8 @@ import pytest
 
 from bondgraph.runtime.diagnosis import onset as module
 from bondgraph.runtime.diagnosis.history import History
-from bondgraph.runtime.diagnosis.onset import _far, _samples_before, onset_again
+from bondgraph.runtime.diagnosis.onset import _far, _samples_before, onset, onset_again
+from bondgraph.runtime.diagnosis.row_averages import LAGS
 from bondgraph.runtime.diagnosis.rows import Row
 
 _LIMITS = np.array([[0.5, 0.0, 4.0, 9.0, 0.0]])
@@ -83,3 +84,78 @@ def test_samples_before_the_fault(
         np.zeros((0, 1)), np.ones(1), np.array([fired]),
     )  # fmt: skip
     assert found == count
+
+
+def _past(odd: int, warm_up: float, count: int = 15) -> list[Row]:
+    """Rows of five samples, of which the last ones are odd; each with an engine of its own."""
+    found = []
+    for k in range(count):
+        engine: Any = SimpleNamespace(
+            sample_time=0.1, signals=("a", "b"), lags=[0.0, 0.25], warm_up=warm_up, number=k
+        )
+        value = np.array([9.0 if k >= count - odd else 0.0, 9.0])
+        row = _row(0.5 * (k + 1))
+        own = {"engine": engine, "value": value, "bound": np.zeros(2), "doubt": np.zeros(2)}
+        found.append(row._replace(valid=np.ones(2, dtype=bool), slopes=np.zeros((0, 2)), **own))
+    return found
+
+
+_BOTH = np.array([[0.5, 0.0, 4.0, 9.0, 0.0]] * 2)
+
+
+def _onset(
+    past: list[Row], monkeypatch: pytest.MonkeyPatch, before: int = 3, rows: int | None = None
+) -> Any:
+    """Where a fault of the first residual sets in; with `rows` a sum of so many has fired."""
+    monkeypatch.setattr(module, "_samples_before", lambda *_: before)
+    detection: Any = SimpleNamespace(fired=np.array([True, False]), onset=lambda limits: rows)
+    piece = [] if rows is not None else [np.zeros((2, 2))]
+    now: Any = SimpleNamespace(sample_time=0.1, signals=("a", "b"), lags=[0.25], warm_up=0.25)
+    return onset(99.0, now, piece, past, detection, _BOTH, History(np.zeros(0)))
+
+
+def test_a_fault_begins_behind_the_last_row_that_was_as_expected(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Three are odd; what is out in a residual that has not fired does not count."""
+    past = _past(3, 0.25)
+    found = _onset(past, monkeypatch)
+    last = past[11]
+    assert found.time == pytest.approx(last.time + 0.3) and found.own == 3
+    assert [row.time for row in found.rows] == [row.time for row in past[12:]]
+    # as many rows before it as averages hang together
+    assert [row.time for row in found.before] == [row.time for row in past[12 - LAGS : 12]]
+    assert found.engine.number == 12 - LAGS
+    assert found.healthy.tolist() == [
+        *[sample for row in found.before for sample in row.samples.tolist()],
+        *past[12].samples[:3].tolist(),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("warm_up", "rows"), [(0.25, LAGS), (3.75, 9), (3.76, 10), (4.25, 10), (60.0, 12)]
+)
+def test_as_many_samples_come_before_as_filters_need_to_settle(
+    warm_up: float, rows: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beside the last of them; five samples a row, and a quarter of a second to read."""
+    past = _past(3, warm_up)
+    monkeypatch.setattr(module, "_samples_before", lambda *_: 0)
+    detection: Any = SimpleNamespace(fired=np.array([True, False]), onset=lambda limits: 0)
+    found = onset(99.0, past[0].engine, [np.zeros((2, 2))], past, detection, _BOTH,
+                  History(np.zeros(0)))  # fmt: skip
+    assert len(found.before) == rows
+
+
+def test_a_sum_of_rows_tells_itself_when_it_was_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+    for odd, since, begin in ((3, 5, 9), (3, 1, 11), (0, 4, 10), (0, 99, 0), (15, 2, 0)):
+        past = _past(odd, 0.25)
+        found = _onset(past, monkeypatch, 0, since)
+        assert found.time == pytest.approx(past[begin].time)
+        assert len(found.rows) == 14 - begin
+
+
+def test_without_a_past_a_fault_begins_now(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = _onset([], monkeypatch)
+    assert found.time == 99.0 and found.own == 0 and found.rows == () and found.before == ()
+    assert found.healthy.shape == (0, 2)

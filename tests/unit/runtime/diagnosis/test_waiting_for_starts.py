@@ -10,7 +10,7 @@ import pytest
 
 from bondgraph.runtime.diagnosis import origins
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.origin_fit import Fit
+from bondgraph.runtime.diagnosis.origin_fit import Fit, _valleys
 from bondgraph.runtime.diagnosis.origins import Origins, Readings
 from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.rows import Row, weight
@@ -319,3 +319,23 @@ def test_near_zero_only_the_next_sample_is_sure(gap: float, sure: bool) -> None:
     # a sample of the same block counts as the newest
     samples = np.array([[500.0], [np.nan], [501.0]])
     assert own.go_on(np.array([5.0, 5.1, 5.2]), samples, 2, [0]) is True
+
+
+@pytest.mark.parametrize(
+    ("scores", "valleys"),
+    [
+        ([3.0, 1.0, 2.0], [1]),
+        ([1.0, 2.0, 0.5], [2, 0]),
+        ([3.0, 1.0, 1.0, 1.0, 2.0], [1, 3]),  # the ends of a plain
+        ([1.0, 1.0, 1.0], [0, 2]),
+        ([0.0, 0.0, 0.0, 1.0], [0, 2]),  # of zeros, too
+        ([2.0, 1.0, 1.0 + 1e-7, 1.0, 2.0], [1, 3]),  # as good as a plain
+        ([2.0, 1.0, 1.0 + 1e-5, 1.0, 2.0], [1, 3]),  # a ridge
+        ([2.0, 1.0 + 1e-5, 1.0, 1.0 + 1e-5, 2.0], [2]),
+        ([5.0], [0]),
+    ],
+)
+def test_valleys_are_lower_than_what_is_beside_them(
+    scores: list[float], valleys: list[int]
+) -> None:
+    assert _valleys(np.array(scores)) == valleys
