@@ -143,3 +143,17 @@ def test_a_share_that_looked_like_an_offset_is_told_once_the_reading_is_elsewher
     assert (first.fault, first.unit) == ("i", "A") and first.size == pytest.approx(3.0, abs=0.1)
     assert (second.fault, second.unit) == ("i", "%")
     assert second.size == pytest.approx(-28.0, abs=0.5)
+
+
+def test_what_could_look_like_two_is_told_of_the_best_pair() -> None:
+    """R with f looks like k with w; k and w, which come second, look like nothing else."""
+    found = [explained("R", 1.0)._replace(left=9.0)]
+    best, second = pair_of("R", "f", 0.6, -0.5, -0.2), pair_of("k", "w", 0.6, 0.1, 0.1)
+    groups = (("R",), ("f",), ("k",), ("w",))
+    alike = DoubleFaults(groups, ((), (), ((0, 1),), ()), "")
+    said = "any two of R, f and k could look like that"
+    for pairs, told in (([best, second], True), ([second, best], False)):
+        ranked = [pair._replace(whole=10.0 - k) for k, pair in enumerate(pairs)]
+        verdict = update(2.0, 1.0, {}, (), found, OneOrTwo(False, ranked), alike)
+        assert (said in verdict.message) is told
+        assert ("could look like that" in verdict.message) is told
