@@ -125,3 +125,15 @@ def test_derivatives_are_taken_and_integrals_are_not() -> None:
     assert taken(product + whole) == taken(product) + whole
     assert taken(whole) is whole
     assert taken(sp.Derivative(t * whole, t)).has(sp.Integral)
+
+
+def test_the_slope_of_a_function_that_nobody_knows_is_one_of_its_own() -> None:
+    """Of a table; that of one of the library is known by its arguments."""
+    u, v = sp.Symbol("u", real=True), sp.Symbol("v", real=True)
+    table = own_function("table:bent.csv")
+    slope = sp.diff(table(u**2, v), u)
+    by_first = own_function("table:bent.csv by 1")(u**2, v)
+    assert sp.simplify(slope - 2 * u * by_first) == 0
+    assert sp.diff(table(u, v), v) == own_function("table:bent.csv by 2")(u, v)
+    square = own_function("ssq")(u)
+    assert square.fdiff() == 2 * own_function("abs")(u)
