@@ -163,3 +163,14 @@ def test_a_parameter_called_t_is_not_the_time() -> None:
     assert sp.simplify(relation.expr / wanted) in (1, -1)
     slope = relation.sensitivity("t")
     assert sp.simplify(slope / sp.diff(v, time)) in (1, -1)
+
+
+def test_what_moves_by_itself_moves_by_nothing_that_it_is_made_of() -> None:
+    """2 x y + 3 x, of which the product is told to change by d and x by e."""
+    p = Pool()
+    x, y, d, e = (p.symbol(name, Kind.SENSOR) for name in ("x", "y", "d", "e"))
+    product = p.mul(x, y)
+    expr = p.add((2, product), (3, x))
+    assert variation(p, expr, {product: d, x: e}, {}) is p.add((2, d), (3, e))
+    assert variation(p, expr, {x: e}, {}) is p.add((2, p.mul(y, e)), (3, e))
+    assert variation(p, expr, {d: e}, {}) is p.zero

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable
+from typing import Any
 
 import pytest
 import sympy as sp
 
 from bondgraph.compilation import Compilation
+from bondgraph.exact.reactions import Reactions
+from bondgraph.exact.trajectory import ExactUnavailable
 from bondgraph.passes.analysis import double_faults
 from tests.unit.passes.relations import compiled, t, value
 
@@ -173,3 +176,34 @@ def test_too_many_are_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     found = compiled(TANKS).double_faults
     assert found.reason.endswith("pairs of groups are too many")
     assert found.like("Q") == () and not found.any_two
+
+
+_GAUGES = "model M { param R=2; Se:U -> 1:a; a { -> R:R; -> Df:y1; -> Df:y2 } }"
+
+
+_MODES = """model M { param m=1; param b=2; param k=3; input on : bool; input u
+Se:F = if(on, k*u, 0) -> 1:v; v { -> I:m; -> R:b; -> Df:s }
+sensor y = F.e }"""
+
+
+@pytest.mark.parametrize(
+    ("text", "failing", "told"),
+    [(_GAUGES, 0, True), (_GAUGES, 99, False), (_MODES, 1, True), (_MODES, 99, False)],
+)
+def test_where_no_point_is_found_in_any_mode_the_reason_is_told(
+    text: str, failing: int, told: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    c = compiled(text)
+    assert c.maximum_isolability  # all that comes before needs points as well
+    drawn, asked = Reactions.draw, list[object]()
+
+    def draw(self: Reactions, *given: Any) -> Any:
+        asked.append(given)
+        if len(asked) <= failing:
+            raise ExactUnavailable("no point")
+        return drawn(self, *given)
+
+    monkeypatch.setattr(Reactions, "draw", draw)
+    found = c.double_faults
+    assert found.reason == ("" if told else "no point") and bool(found.alike) is told
+    assert len(asked) > 1 or text == _GAUGES

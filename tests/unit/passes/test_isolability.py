@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 import sympy as sp
 
+from bondgraph.exact.reactions import Reactions
+from bondgraph.exact.trajectory import ExactUnavailable
 from bondgraph.field.balls import Imprecise
 from bondgraph.passes.analysis import isolability
 from tests.unit.passes.relations import compiled
@@ -178,3 +180,17 @@ def test_a_mode_in_which_one_of_two_faults_acts() -> None:
     assert ("L", "r", "E") in c.signatures.groups
     assert c.maximum_isolability is not None
     assert {("L", "r"), ("E",)} <= set(c.maximum_isolability)
+
+
+def test_of_a_plant_without_a_trajectory_nothing_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """There is one group to be divided, so that nothing is left to be tried by itself."""
+    c = compiled(CASES["motor"][0])
+    assert c.residuals.residual_set.residuals  # without a point there would be none
+    asked: list[int] = []
+
+    def draw(self: Reactions, attempt: Any, *rest: Any) -> Any:
+        asked.append(len(attempt.args[1]))
+        raise ExactUnavailable("no point")
+
+    monkeypatch.setattr(Reactions, "draw", draw)
+    assert c.maximum_isolability is None and asked == [1]
