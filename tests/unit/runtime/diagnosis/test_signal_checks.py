@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bondgraph.runtime.diagnosis.signal_checks import SignalChecks, Unusual
+from bondgraph.runtime.diagnosis.signal_checks import _SMOOTH, SignalChecks, Unusual
 from bondgraph.runtime.log import Array
 
 _STEP, _ROW = 0.01, 25
@@ -718,3 +718,11 @@ def test_a_spike_that_a_controller_passes_on_in_the_same_sample_is_that_of_its_s
     told = _driven(samples, row, ("u", "q", "T"))
     assert {one[:2] for one in told} == {("T", "spike")}
     assert [round(one.since / _STEP) for one in told] == spikes.tolist()
+
+
+def test_a_sample_is_compared_with_the_cubic_through_those_beside_it() -> None:
+    """Two to either side: nothing is left of a parabola, nor of a cubic."""
+    near, far = _SMOOTH
+    for coefficients in ([7.0], [3.0, -2.0], [2.0, -3.0, 4.0], [5.0, 1.0, -2.0, 8.0]):
+        at = np.polyval(coefficients, [-2.0, -1.0, 0.0, 1.0, 2.0])
+        assert near * (at[1] + at[3]) + far * (at[0] + at[4]) == pytest.approx(at[2])
