@@ -480,3 +480,20 @@ def test_settling_times() -> None:
 
 def test_a_term_is_seen_down_to_twelve_bits_unless_asked_otherwise() -> None:
     assert LowerOptions().resolution == 1 / 4096
+
+
+@pytest.mark.parametrize(("kind", "written"), [("one", 0), ("filtered", 0), ("sum", 1)])
+def test_what_is_beside_laws_of_derivatives_has_one_name(kind: str, written: int) -> None:
+    """It passes the filter of the laws: as it is where it has a name, else under one of its own."""
+    bench = Bench()
+    p, y, u = bench.pool, bench.sensor("y"), bench.input("u")
+    law = p.mul(y, p.fn("exp", p.der(y)))
+    beside = {
+        "one": [(3, u)],
+        "filtered": [(1, p.der(u, 2)), (2, u)],
+        "sum": [(3, u), (1, p.mul(bench.param("a", "0.5"), p.der(u)))],
+    }[kind]
+    program = bench.program(p.add((1, law), *beside))
+    for statements in (program.first, program.step):
+        own = [s.value for s in statements if s.target.name == "r1_others"]  # type: ignore[union-attr]
+        assert len(own) == written and all(isinstance(value, Sum) for value in own)
