@@ -10,7 +10,7 @@ import pytest
 
 from bondgraph.backends import forty_digits as module
 from bondgraph.backends.forty_digits import Evaluation, value
-from bondgraph.backends.golden import golden
+from bondgraph.backends.golden import Vector, golden, inputs
 from bondgraph.ir.program import Assign, Const, Function, PolynomialTape, Product, Ref
 from tests.unit.backends import programs
 
@@ -147,3 +147,22 @@ def test_samples_are_taken_as_long_as_results_are_finite() -> None:
 
 def test_every_tape_is_found() -> None:
     assert any(isinstance(s, PolynomialTape) for s in programs.ladder().configure)
+
+
+def test_many_derivatives_are_tried_once_and_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Few are scaled by powers of two, so that each is felt as much as the signals."""
+    program = programs.motor()
+    refs = list(inputs(program))
+    rates = [ref for ref in refs if ref.space == "known" and ref.order > 0]
+    assert 0 < len(rates) < len(refs)
+
+    def vectors(many: int) -> tuple[Vector, ...]:
+        monkeypatch.setattr("bondgraph.backends.golden._MANY", many)
+        return golden(program).exact
+
+    assert [len(vectors(many)) for many in (len(refs), len(refs) - 1)] == [4, 1]
+    scaled, plain = vectors(len(rates))[0].values, vectors(len(rates) - 1)[0].values
+    shares = {ref: scaled[ref] / plain[ref] for ref in refs if plain[ref]}
+    assert all(share == 1.0 for ref, share in shares.items() if ref not in rates)
+    powers = [math.log2(shares[ref]) for ref in rates if ref in shares]
+    assert any(powers) and all(power == round(power) for power in powers)
