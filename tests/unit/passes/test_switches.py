@@ -70,7 +70,7 @@ def test_a_junction_that_is_off_imposes_its_flow_or_effort_on_all_its_bonds(
         # the stroke is where effort is taken: at the junction if it gives flow, else at the other
         own = int(bond.head.node == at)
         assert wish.value == (own if side == "flow" else 1 - own)
-        assert (wish.node, wish.cause) == (at, "switched")
+        assert (wish.node, wish.port, wish.cause) == (at, -1, "switched")  # it has no ports
     same, none = held(net, frozenset())
     assert same.ends == net.ends and none == []
 
