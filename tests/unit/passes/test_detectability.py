@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import pytest
 
 from bondgraph.compilation import Compilation
+from bondgraph.ir.expr import Kind, Pool
+from bondgraph.passes.analysis.detectability import _Wrong
 from bondgraph.text.source import Source
 from tests.unit.passes.relations import compiled
 
@@ -164,3 +169,20 @@ def test_a_machine_that_can_stand_but_has_no_value_in_motion_gets_an_answer() ->
     )
     assert set(c.signatures.unconfirmed) == {"r1", "r2", "r3"}
     assert c.detectability.residuals == ("r1", "r2", "r3")
+
+
+def test_a_constant_error_is_a_share_of_what_is_there_and_a_quarter_of_it_each_turn() -> None:
+    """Where nothing is there it is what is drawn; nothing else is told wrong, nor any rate."""
+    pool = Pool()
+    y, z, rest = (pool.symbol(name, Kind.SENSOR) for name in ("y", "z", "rest"))
+    begun, other = (pool.symbol(name, Kind.INITIAL).symbol for name in ("q0", "p0"))
+    numbers = SimpleNamespace(any=lambda draw: 0.5, nonzero=bool, inverse=lambda x: 1.0 / x)
+    values = {y: [8.0, 3.0], z: [5.0, 1.0], rest: [0.0, 2.0]}
+    point: Any = SimpleNamespace(
+        algebra=SimpleNamespace(numbers=numbers), value=values.__getitem__, start=lambda _: 7.0
+    )
+    for turn, share in ((0, 1.0), (1, 0.25), (3, 1.0 / 64.0)):
+        wrong = _Wrong(point, y, turn, {begun})
+        assert wrong.value(y) == [8.0 + 4.0 * share, 3.0] and wrong.value(z) == [5.0, 1.0]
+        assert _Wrong(point, rest, turn, ()).value(rest) == [0.5 * share, 2.0]
+        assert wrong.start(begun) == 7.5 and wrong.start(other) == 7.0

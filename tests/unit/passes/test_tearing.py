@@ -14,8 +14,8 @@ from functools import cache
 import pytest
 
 from bondgraph.algebra.nominal import Nominal
-from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
-from bondgraph.passes.elimination.tearing import Loops
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.passes.elimination.tearing import Loops, _Row
 from tests.unit.passes.relations import compiled
 
 Series = list[Fraction]
@@ -255,3 +255,24 @@ def test_a_loop_that_cannot_be_solved_is_told_with_what_it_costs() -> None:
     assert bench.loops.relations() == []
     (lost,) = bench.loops.lost
     assert set(lost.rows) == {0, 1, 2} and lost.about == (2,)
+
+
+def test_a_row_that_divides_by_what_the_loop_makes_zero_is_dropped_with_none_in_its_place() -> None:
+    """x is a: of 1/(x - a) nothing is left, y + x is y + a, and x - 2 holds no variable more."""
+    p = Pool()
+    x, y = (p.symbol(name, Kind.TEAR) for name in "xy")
+    a = p.symbol("a", Kind.PARAM)
+    loops = object.__new__(Loops)
+    loops.pool, loops.variable, loops.tears = p, {x: x, y: y}, {}
+    loops.solved, loops.plain = {}, []
+    untouched = _Row((5,), p.mul(y, a))
+    loops.pending = [
+        _Row((2,), p.add((1, y), (1, x))),
+        _Row((1,), p.power(p.sub(x, a), -1)),
+        _Row((3, 0), p.sub(x, p.num(2))),
+        untouched,
+    ]
+    loops._record(x, _Row((0,), a))
+    assert loops.solved == {x: _Row((0,), a)}
+    assert loops.pending == [_Row((0, 2), p.add((1, y), (1, a))), untouched]
+    assert loops.plain == [_Row((0, 3), p.sub(a, p.num(2)))]
