@@ -17,8 +17,9 @@ from bondgraph.runtime.diagnosis.calibration import (
     _path,
     _where_it_stands,
 )
+from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.noise import FILTERED, Noise
-from bondgraph.runtime.diagnosis.row_averages import WHITE
+from bondgraph.runtime.diagnosis.row_averages import WHITE, lasting
 from bondgraph.runtime.diagnosis.rows import Average, Row
 from bondgraph.runtime.diagnosis.tuning import Limit
 from bondgraph.runtime.diagnosis.wander import NONE, Wander, wander
@@ -150,3 +151,37 @@ def test_a_row_beside_a_mean_has_room_for_what_is_not_known_of_it() -> None:
     assert found.average.doubt.tolist() == (own.doubt + unsure).tolist()
     # the row itself is as it was
     assert row.value[0] == 7.0 and own.value.tolist() == before.tolist() and row.time == 9.0
+
+
+def _learning(centred: bool, least: float) -> Any:
+    own: Any = object.__new__(Learning)
+    own.limits, own._centred = np.zeros((2, 12)), [True, centred]
+    own.limits[:, 2] = 4.0
+    own._least = lambda unit: np.full(2, least)
+    return own
+
+
+@pytest.mark.parametrize(("centred", "stands"), [(True, 2.0), (False, 0.0)])
+def test_averages_stand_above_the_mean_of_rows_where_there_is_one(
+    centred: bool, stands: float
+) -> None:
+    """Their own mean is 5, that of rows 3; noise is taken for twice what it shows."""
+    values = np.random.default_rng(3).standard_normal(400)
+    values += 5.0 - values.mean()
+    told = lasting(values, 0.0, centred, 4.0)
+    found = _learning(centred, 0.0)._averages(1, values, 0.0, 3.0, 2.0)
+    assert found[0] == pytest.approx(2.0 * told.unit)
+    assert found[1] == pytest.approx(stands)
+    assert found[2:].tolist() == pytest.approx(told.weights.tolist())
+    most = _learning(centred, 9e3)._averages(1, values, 0.0, 3.0, 2.0)
+    assert most[0] == pytest.approx(9e3 * (1.0 + told.weights.sum()))
+
+
+def test_of_averages_that_tell_nothing_no_unit_is_known() -> None:
+    found = _learning(True, 0.0)._averages(1, np.full(3, np.nan), 0.0, 3.0, 2.0)
+    assert found[0] == 0.0
+    own = _learning(True, 0.0)
+    own.limits[1, 6:8] = 0.0, 7.0
+    assert own._further(1) == 0.0
+    own.limits[1, 6] = 0.5
+    assert own._further(1) == 7.0
