@@ -12,8 +12,9 @@ import pytest
 from bondgraph.compilation import Compilation
 from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.diagnosis.sensor_offsets import SensorOffsets, roughness
+from bondgraph.runtime.diagnosis.tuning import UNKNOWN
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 from tests.unit.passes.relations import compiled
@@ -138,3 +139,28 @@ def test_a_start_that_is_found_while_offsets_are_learned_changes_nothing_of_them
         offsets.row(Row(0.0, part, engine, one, sound, one, one, slopes), history)
     assert offsets.known
     assert history.prior == pytest.approx([0.2, _NOISE], rel=0.05)
+
+
+def test_room_is_what_offsets_may_do_where_something_is_out() -> None:
+    """Two residuals and one sensor of a deviation of 2, whose slopes are 3 and 0, then 1 and 5."""
+    own = object.__new__(SensorOffsets)
+    own._numbers = [1]
+    history = History(np.array([7.0, 2.0]))
+    slopes = np.zeros((3, 2, 2))
+    slopes[0, 1], slopes[1, 1], slopes[2, 1] = (3.0, 0.0), (1.0, 5.0), (9.0, 9.0)
+    value = np.array([[50.0, 50.0], [-50.0, 0.0], [0.0, 0.0]])
+    bound, none = np.array([[2.0, 2.0], [1.0, 1.0], [1.0, 1.0]]), np.zeros((3, 2))
+    part = Part(np.arange(3.0), none, value, none == 0.0, bound, none, slopes)
+    line = np.full((3, 2), 10.0)
+    # nothing has been learned: two deviations of what they do, less the threshold that there is,
+    # and no more than they do at most, as far as if they were spread evenly
+    assert own.room(part, line, history) == pytest.approx(
+        np.array([
+            [min(UNKNOWN * 6.0 - 2.0, math.sqrt(3.0) * 6.0), 0.0],
+            [min(UNKNOWN * 2.0 - 1.0, math.sqrt(3.0) * 2.0), 0.0],
+            [0.0, 0.0],
+        ])
+    )
+    assert not own.room(part, np.full((3, 2), 99.0), history).any()
+    own._numbers = []
+    assert not own.room(part, line, history).any()
