@@ -9,9 +9,12 @@ from fractions import Fraction
 import pytest
 
 from bondgraph.backends import forty_digits as module
+from bondgraph.backends.blocks import lines
 from bondgraph.backends.forty_digits import Evaluation, value
 from bondgraph.backends.golden import Vector, golden, inputs
+from bondgraph.compilation import Compilation
 from bondgraph.ir.program import Assign, Const, Function, PolynomialTape, Product, Ref
+from bondgraph.text.source import Source
 from tests.unit.backends import programs
 
 
@@ -166,3 +169,22 @@ def test_many_derivatives_are_tried_once_and_as_they_come(monkeypatch: pytest.Mo
     assert all(share == 1.0 for ref, share in shares.items() if ref not in rates)
     powers = [math.log2(shares[ref]) for ref in rates if ref in shares]
     assert any(powers) and all(power == round(power) for power in powers)
+
+
+_LATE = """bg 1
+model M { param C = 2; param k = 3
+0:t { <- Sf:Q; -> C:C; -> R:v { f = k*delay(h, 0.5) }; -> De:h } }"""
+
+
+@pytest.mark.parametrize(
+    ("rate", "kept", "samples"), [(2.0, 4, 16), (20.0, 13, 25), (1000.0, 503, 16)]
+)
+def test_as_many_samples_as_are_remembered_and_a_dozen_more(
+    rate: float, kept: int, samples: int
+) -> None:
+    """Sixteen at least; where there are hundreds, step is tried before it has a value."""
+    program = Compilation(Source("m.bg", _LATE)).with_options(rate=rate).program
+    (line,) = lines(program).values()
+    assert line.length == kept  # half a second, and three that are beside it
+    assert len(golden(program).step) == samples
+    assert len(golden(programs.motor()).step) == 16
