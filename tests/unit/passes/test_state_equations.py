@@ -203,3 +203,25 @@ def test_what_contradicts_in_a_mode_is_told_by_its_elements(parts: int, words: s
     assert error.message.startswith(f"The plant has no motion that satisfies {words} these")
     assert len(error.labels) == min(2 * parts, 4)
     assert len(_equations(text + "\nsensor z = q1", modes={"on": True}).states) == 0
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        _GEAR,
+        _GEAR.replace("Se:F", "Sf:F"),
+        "param a = 1; param b = 2\n0:n { <- Sf:i; -> C:a; -> C:b; -> R:r = 1; -> De:y }",
+        "param a = 1; param b = 2\n0:n { <- Sf:i; -> C:b; -> C:a; -> R:r = 1; -> De:y }",
+        "param a = 1; param b = 2\n1:s { <- Se:u; -> I:b; -> R:r = 1; -> Df:y }\ns -> I:a",
+        "param m = 2; param M = 5\n1:w { -> I:M; -> Df:y }\n1:v { <- Se:F; -> I:m }\n"
+        "v -> TF:n { f1 = 4*f2 } -> w",
+    ],
+)
+def test_storages_in_integral_causality_are_the_states(text: str) -> None:
+    """As the strokes of the bond graph say; the others follow from them."""
+    model = Compilation(Source("m.bg", f"bg 1\nmodel M {{\n{text}\n}}\n"))
+    told = {model.graph.nodes[s.node].path for s in model.integral.storages if s.integral}
+    found = model.state_equations()
+    assert {s.name.partition(".")[0] for s in found.states} == told
+    others = {model.graph.nodes[s.node].path for s in model.integral.storages} - told
+    assert {impulse.storage for impulse in found.dependent} == others
