@@ -11,9 +11,9 @@ import pytest
 from bondgraph.backends import forty_digits as module
 from bondgraph.backends.blocks import lines
 from bondgraph.backends.forty_digits import Evaluation, value
-from bondgraph.backends.golden import Vector, golden, inputs
+from bondgraph.backends.golden import Vector, _orders, golden, inputs
 from bondgraph.compilation import Compilation
-from bondgraph.ir.program import Assign, Const, Function, PolynomialTape, Product, Ref
+from bondgraph.ir.program import Assign, Const, Function, Known, PolynomialTape, Product, Ref
 from bondgraph.text.source import Source
 from tests.unit.backends import programs
 
@@ -188,3 +188,20 @@ def test_as_many_samples_as_are_remembered_and_a_dozen_more(
     assert line.length == kept  # half a second, and three that are beside it
     assert len(golden(program).step) == samples
     assert len(golden(programs.motor()).step) == 16
+
+
+def test_what_exact_takes_of_a_signal() -> None:
+    """Its derivatives from itself up, its integral, and nothing of itself for that alone."""
+    y = Known("y", "y", "", "", "sensor", 2, False, None, None)
+    told = {
+        "derivatives": y,
+        "itself": y._replace(highest=0),
+        "its integral": y._replace(highest=-1, integral=True, lowest=-1),
+        "both": y._replace(highest=1, integral=True, lowest=-1),
+        "nothing is itself": y._replace(highest=-1),
+    }
+    found = {name: [ref.order for ref in _orders(known)] for name, known in told.items()}
+    assert found == {
+        "derivatives": [0, 1, 2], "itself": [0], "its integral": [-1], "both": [0, 1, -1],
+        "nothing is itself": [0],
+    }  # fmt: skip
