@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 
@@ -201,3 +202,15 @@ def test_an_example_sets_a_parameter_that_the_model_gives_no_number() -> None:
     made = {a.path: a.text for a in emit(bare, ("c",), extras=("example",))}
     assert f"parameters.{first.name} = MOTOR_CONSTANT(1.0);" in made["example/example.c"]
     assert made["example/example.c"].count("parameters.") == 1
+
+
+def test_the_python_of_thresholds_speaks_of_thresholds() -> None:
+    program = programs.motor()
+    bound = program._replace(bounds=program.name)
+    made = {a.path: a.text for a in emit(program, ("python",), thresholds=bound)}["motor.py"]
+    says = re.findall(r"Take one sample of every signal, .*; the (\w+)\.", made)
+    assert says == ["residuals", "thresholds"]
+    classes = re.findall(r"^class (Monitor|Thresholds)\b", made, re.MULTILINE)
+    assert classes == ["Monitor", "Thresholds"]
+    alone = {a.path: a.text for a in emit(program, ("python",))}["motor.py"]
+    assert "class Thresholds" not in alone and "; the thresholds." not in alone
