@@ -95,3 +95,13 @@ def test_the_value_that_a_machine_has_replaces_that_of_the_model() -> None:
     balance = pool.sub(b, pool.num(6))
     assert own.vanishes(balance) and not other.vanishes(balance)
     assert Nominal(graph, {"b": 7.0}).value(b) == 7.0
+
+
+def test_a_term_that_is_nothing_makes_no_sum_cancel() -> None:
+    """2*3 - 3 + 100*0: three of nine are left, whatever stands before the zero."""
+    text = "bg 1\nmodel M { param a = 3; param z = 0; Se:U -> R:a\n sensor y = U }"
+    graph = Compilation(Source("m.bg", text)).graph
+    pool, s = graph.pool, {v.name: v.symbol for v in graph.values}
+    expr = pool.add((2, s["a"]), (-3, pool.one), (100, s["z"]))
+    assert not Nominal(graph).cancels(expr)
+    assert Nominal(graph, {"z": -0.02}).cancels(expr)  # of 11 one
