@@ -147,10 +147,10 @@ def _slope(
                 if a in slopes:
                     if e < 0 and values[a].low < 0 < values[a].high:
                         return None
-                    part = times(scale(e, power(values[a], e - 1)), slopes[a])
+                    part = times(scale(e, _raised(a, values[a], e - 1)), slopes[a])
                     for k, (b, f) in enumerate(zip(args, node.exponents, strict=True)):
                         if k != at:
-                            part = times(part, power(values[b], f))
+                            part = times(part, _raised(b, values[b], f))
                     total = add(total, part)
             return total
         case Op.FN:
@@ -295,7 +295,7 @@ def times(a: Interval, b: Interval) -> Interval:
 
 
 def power(a: Interval, exponent: int) -> Interval:
-    """An integer power."""
+    """An integer power; one that is zero inside is so at single points."""
     if exponent == 0:
         return ONE
     if exponent < 0:
@@ -312,8 +312,24 @@ def power(a: Interval, exponent: int) -> Interval:
         size = a if a.low >= 0 else scale(-1.0, a)
         low, high = _raise(size.low, exponent), _raise(size.high, exponent)
         return Interval(low, high, size.open_low, size.open_high)
-    far = max((abs(a.low), a.open_low), (abs(a.high), a.open_high))
-    return Interval(0.0, _raise(far[0], exponent), True, far[1])
+    far = max((abs(a.low), not a.open_low), (abs(a.high), not a.open_high))
+    return Interval(0.0, _raise(far[0], exponent), True, not far[1])
+
+
+def _raised(node: Expr, a: Interval, exponent: int) -> Interval:
+    """An integer power of a node with a range. What has pieces may be zero all along one."""
+    found = power(a, exponent)
+    if a.low < 0 < a.high and found.low == 0 and _has_pieces(node):
+        return found._replace(open_low=False)
+    return found
+
+
+def _has_pieces(node: Expr) -> bool:
+    """Whether an expression is another function in one place than in another."""
+    return any(
+        n.op is Op.IF or (n.op is Op.FN and (n.name not in FUNCTIONS or _record(n).bends))
+        for n in topological([node])
+    )
 
 
 def _raise(x: float, exponent: int) -> float:
@@ -324,7 +340,7 @@ def _raise(x: float, exponent: int) -> float:
 
 
 def _product(node: Expr, args: list[Interval]) -> Interval:
-    return reduce(times, map(power, args, node.exponents), ONE)
+    return reduce(times, map(_raised, node.args, args, node.exponents), ONE)
 
 
 def join(*ranges: Interval) -> Interval:

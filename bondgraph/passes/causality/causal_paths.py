@@ -122,7 +122,7 @@ class Paths:
             node = self.maker(variable)
             kind = self._graph.nodes[node].kind
             if kind in STORAGES:
-                if node != storage.node:
+                if node != storage.node and node not in storages:  # which may have several ports
                     storages.append(node)
             elif kind in ("Se", "Sf", "De", "Df"):
                 others.append(node)

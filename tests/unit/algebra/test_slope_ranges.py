@@ -74,6 +74,8 @@ def test_products(left: str, right: str, product: str) -> None:
         ("(-3, 2]", 2, "(0, 9)"),  # zero and nine are passed at single points
         ("[-3, 2)", 2, "(0, 9]"),
         ("(-2, 3]", 4, "(0, 81]"),
+        ("(-1, 1]", 2, "(0, 1]"),  # one is reached from one side
+        ("[-1, 1)", 2, "(0, 1]"),
         ("(2, 4]", -1, "[0.25, 0.5)"),
         ("(-4, -2]", -1, "[-0.5, -0.25)"),
         ("(1, 2]", -2, "[0.25, 1)"),
@@ -234,6 +236,22 @@ def test_slopes(law: Expr, expected: str | None) -> None:
     given = {x: read("[1, 2]"), z: read("[4, 5]")}
     found = slope_range(p, law, x, lambda _: None, given=given)
     assert (None if found is None else shown(found)) == expected
+
+
+def test_what_is_zero_all_along_a_piece_leaves_nothing_to_grow() -> None:
+    """The square of a dead zone, or of what is cut off: there x times it is 0 for every x."""
+    above, below = p.sub(y, p.one), p.add((1, y), (1, p.one))
+    zone = p.add((1, p.fn("max", above, p.zero)), (1, p.fn("min", below, p.zero)))
+    cut = less(y, p.zero, p.fn("sin", y), p.zero)
+    for factor in (zone, cut):
+        assert direction(p, p.mul(x, p.power(factor, 2)), x, lambda _: None) is None
+    # at single points of y it may be zero
+    assert direction(p, p.mul(x, p.power(y, 2)), x, lambda _: None) == 1
+    assert direction(p, p.mul(x, p.power(p.fn("sin", y), 2)), x, lambda _: None) == 1
+    # and a root that is one from zero on leaves none of x*(1 - v^2) there
+    v = less(y, p.zero, p.fn("sin", y), p.one)
+    law = p.mul(x, p.sub(p.one, p.power(v, 2)))
+    assert direction(p, law, x, lambda _: None) is None
 
 
 def test_a_function_of_positive_numbers_limits_the_variable_everywhere() -> None:
