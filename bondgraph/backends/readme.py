@@ -313,7 +313,7 @@ def _switches(program: Program) -> list[str]:
     """What a change of a mode does, for a program in which one does something."""
     path = {k.name: k.path for k in program.knowns}
     pace = program.bandwidth / program.rate
-    settle = {r.name: r.wait(pace) for r in program.residuals}
+    settle = program.waits(pace)
     when: dict[tuple[str, ...], list[str]] = {}
     for opening in program.openings:
         when.setdefault(tuple(path[m] for m in opening.modes), []).append(opening.residual)
@@ -339,7 +339,7 @@ def _usage(
     program: Program, facts: Facts, targets: Sequence[str], fixed: bool
 ) -> list[str]:
     pace = program.bandwidth / program.rate
-    settle = max((r.wait(pace) for r in program.residuals), default=0.0)
+    settle = max(program.waits(pace).values(), default=0.0)
     wait = settle / program.bandwidth
     stem, prefix = facts.stem, snake(program.name).upper()
     found = [

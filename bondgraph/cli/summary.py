@@ -156,7 +156,8 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
             notes.append([f"  {info.name}  is approximate: {info.approximate}"])
         if info.name in anew:
             modes = " or ".join(anew[info.name])
-            wait = info.wait(program.bandwidth / program.rate) / program.bandwidth
+            pace = program.bandwidth / program.rate
+            wait = program.waits(pace)[info.name] / program.bandwidth
             what = f"  {info.name}  starts anew where {modes} changes: what it differentiates"
             notes.append([f"{what} may jump there; valid {wait:.2g} s later"])
         if info.unavailable:

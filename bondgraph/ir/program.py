@@ -433,10 +433,16 @@ class Program(NamedTuple):
     openings: tuple[Opening, ...] = ()  # of the residuals that start anew where switches turn
     delayed: tuple[Delayed, ...] = ()  # past values of the known signals
 
+    def waits(self, pace: float) -> dict[str, float]:
+        """Time constants until each residual is valid, as `ResidualInfo.wait`, by name."""
+        least = dict.fromkeys((o.residual for o in self.openings), FEWEST * pace)
+        return {r.name: max(r.wait(pace), least.get(r.name, 0.0)) for r in self.residuals}
+
     def wait(self, pace: float) -> float:
-        """Time constants until nothing is left of a start, as `ResidualInfo.wait`."""
+        """The same until nothing is left of a start of any."""
         begun = max([r.wait(pace) - r.settle for r in self.residuals], default=0.0)
-        return max(self.warmup + begun, FEWEST * pace if self.openings else 0.0)
+        opened = max(self.waits(pace).values(), default=0.0) if self.openings else 0.0
+        return max(self.warmup + begun, opened)
 
     def __hash__(self) -> int:
         """Of what tells programs apart: what is cached by a program is asked for again and again,

@@ -233,6 +233,9 @@ model Switched {
     settled = int(np.argmax(valid))
     assert valid[settled:].all() and settled >= 40
     assert settled * engine.sample_time <= engine.warm_up + 1e-9
+    # and what people are told is when all are valid indeed
+    pace = bandwidth / 1000.0
+    assert settled == math.ceil(max(made.program.waits(pace).values()) / pace - 1e-9)
 
 
 def test_what_is_unavailable_is_not_waited_for() -> None:
