@@ -280,7 +280,7 @@ def test_a_second_fault_shows_by_what_the_first_one_does_not_do(second: float, s
     slopes[:, 0], slopes[:, 1] = [5.0, 0.0], [5.0, second]
     value = slopes.sum(axis=1)
     forms = Forms(none > 0.0, np.zeros((rows, LAGS, 2)))
-    seen = Told(forms, value, none == 0.0, none, none, np.zeros((rows, 0, 2)), none + 1.0)
+    seen = Told(forms, value, none == 0.0, none, none, np.zeros((rows, 0, 2)), none + 1.0, none)
     told = Rows(value, none + 1.0, seen.rest, slopes)
     a, b = (Hypothesis(name, "value", "", 1.0, False) for name in "ab")
     pair = ExplainedPair((a, b), 50.0, (1.0, 1.0))
@@ -302,7 +302,7 @@ def test_two_that_only_take_noise_away_are_no_better_than_one(second: float) -> 
     none = np.zeros((count, 1))
     forms = Forms(none > 0.0, np.zeros((count, LAGS, 1)))
     rest, sigma = np.zeros((count, 0, 1)), none + 1.0 / math.sqrt(CORRELATED)
-    seen = Told(forms, value, none == 0.0, none, none, rest, sigma)
+    seen = Told(forms, value, none == 0.0, none, none, rest, sigma, none)
     rows = Rows(value, none + 1.0, rest, slopes)
     case = Case([Hypothesis(n, "gain", "", 0.3, n != "y") for n in ("U", "y", "leak")], slopes)
     history = History(np.zeros(0))
