@@ -121,9 +121,12 @@ class Instead:
         at = np.asarray(ends, dtype=np.intp)
         sums = summed(value[None], at)[0, : len(at)] if len(at) else value[:0]
         values = value[at], sums / np.asarray(lengths)[:, None]
-        slopes = [np.where(moved[at][:, None], a - b, 0.0) for a, b in zip(*both, strict=True)]
-        last, means = (np.concatenate([one[:, None], by], axis=1)
-                       for one, by in zip(values, slopes, strict=True))  # fmt: skip
         apart = (samples[at, self._at] != self.held.position)[:, None]
         louder = np.where(moved[at] & apart, self._louder, 1.0)
+        # of another unit, what parameters within their tolerances do as it is told is none of it
+        as_told = np.where(louder == 1.0, 1.0, 0.0)[:, None]
+        slopes = [np.where(moved[at][:, None], a - as_told * b, 0.0)
+                  for a, b in zip(*both, strict=True)]  # fmt: skip
+        last, means = (np.concatenate([one[:, None], by], axis=1)
+                       for one, by in zip(values, slopes, strict=True))  # fmt: skip
         return last, means, other.valid[at] | ~moved[at], louder

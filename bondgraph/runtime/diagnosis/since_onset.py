@@ -279,13 +279,14 @@ class SinceOnset:
         shared = None if kin is None else Shared(seen.variance, sums, kin.correlations())
         rows = Rows(seen.value, weight, seen.rest, slopes, sums, shared)
         found = [{k: _instead(seen, rows, own) for k, own in held.items()} for held in cases]
-        every = [one for others in found for one in others.values()]
-        for other in every:
+        every = [(other[k], own.louder[: len(rows.value)])
+                 for other, held in zip(found, cases, strict=True) for k, own in held.items()]
+        for other, _ in every:
             self._unsaid |= np.isnan(other.weight[:_GROWS])
         early = _early(rows.value, _ERROR)
-        for one in (rows, *every):
+        for one, louder in ((rows, np.ones(1)), *every):
             one.weight[:_GROWS][self._unsaid[: len(one.weight)]] = 0.0
-            one.weight[:] = 1.0 / (inverse(one.weight) + early)
+            one.weight[:] = 1.0 / (inverse(one.weight) + louder**2 * early)
         return rows, found
 
     def _dated(self, history: History, found: Sequence[Explained]) -> None:
@@ -544,17 +545,18 @@ class SinceOnset:
 def _instead(seen: Told, rows: Rows, held: _Held) -> Rows:
     """Rows as they would be if a position was told that is held.
 
-    They have the noise that they have there, and where that is another they stand at zero. Those
-    that have no value yet, in the first rows, have no weight (NaN) in any.
+    They have the noise that they have there, and where that is another they stand at zero, with
+    slopes of their own. Those that have no value yet, in the first rows, have no weight (NaN).
     """
     moved = seen.forms.of(held.moves)
     louder = held.louder[: len(rows.value)]
-    value = rows.value + moved[:, 0] + np.where(louder == 1.0, 0.0, seen.level)
+    same = louder == 1.0  # its unit
+    value = rows.value + moved[:, 0] + np.where(same, 0.0, seen.level)
     weight = seen._replace(noise=louder * seen.noise, bound=louder * seen.bound,
                            doubt=louder * seen.doubt).weights(value)  # fmt: skip
     weight[rows.weight == 0] = 0.0
     weight[:_GROWS][~held.sound[:_GROWS] & (rows.weight[:_GROWS] > 0)] = np.nan
-    rest = rows.rest.copy()
+    rest = np.where(same[:, None], rows.rest, 0.0)
     rest[:, : moved.shape[1] - 1] += moved[:, 1:]
     return Rows(value, weight, rest, rows.slopes[:, :0], rows.alone, rows.shared)
 
