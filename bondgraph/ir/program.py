@@ -441,8 +441,7 @@ class Program(NamedTuple):
     def wait(self, pace: float) -> float:
         """The same until nothing is left of a start of any."""
         begun = max([r.wait(pace) - r.settle for r in self.residuals], default=0.0)
-        opened = max(self.waits(pace).values(), default=0.0) if self.openings else 0.0
-        return max(self.warmup + begun, opened)
+        return max(self.warmup + begun, FEWEST * pace if self.openings else 0.0)
 
     def __hash__(self) -> int:
         """Of what tells programs apart: what is cached by a program is asked for again and again,

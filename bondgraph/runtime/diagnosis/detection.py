@@ -23,7 +23,8 @@ _QUIET = 2  # rows, at least: what moves through zero is quiet in one
 _STILL = 8  # rows at least that no alarm would be given in, until it is over for that alone
 _OUT = 3.0  # deviations that noise by itself hardly reaches
 _CHANCE = 2.33  # deviations below an even chance, of a test of signs: one in a hundred
-_KNOWN = 16  # rows from which it is known what a residual is beside a fault
+#: Rows from which it is known what a residual is beside a fault: its deviation to a fifth then.
+_KNOWN = 16
 _LEAST = 0.5  # deviations, of averages or rows: a fault that does less is not seen
 
 

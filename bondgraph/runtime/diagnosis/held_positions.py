@@ -55,7 +55,7 @@ class Loudness:
         self._known: dict[str, Array] = {}  # with the switch off and on, (2, residuals)
 
     def beside(self, held: Stuck) -> Array:
-        """How many times as loud residuals surely are with a switch `held` as it is told else.
+        """How many times as loud residuals surely are where a switch is `held` as where it is told.
 
         That is a factor of `_ROUGHLY` less than what is found, to either side. One where that is
         not known, and for a command that stays: it is near what is told.

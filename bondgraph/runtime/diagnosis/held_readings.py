@@ -11,9 +11,10 @@ from bondgraph.runtime.log import Array, Mask
 class HeldReadings:
     """Which signals stand since a switch has turned: they have another value once it turns again.
 
-    The load of an elevator is weighed while its brake is shut. Each of the `signals` is compared
-    with each of the `modes`: it stands since some samples before or behind a turn, no more than it
-    may be `late`.
+    The load of an elevator is weighed while its brake is shut. A sensor that dies just when a
+    switch turns looks the same until it turns again: that is for residuals to say. Each of the
+    `signals` is compared with each of the `modes`: it stands since some samples before or behind a
+    turn, no more than it may be `late`.
 
     >>> held = HeldReadings(2, 1, late=2)
     >>> on = np.array([[0.0], [0.0], [1.0], [1.0], [1.0], [1.0]])

@@ -45,16 +45,24 @@ def test_how_loud_the_noise_of_a_sensor_makes_a_residual_in_the_other_position()
     assert off == pytest.approx(3.0 / ratio, rel=0.02)
 
 
-def test_where_residuals_are_as_loud_in_both_positions_nothing_is_scaled() -> None:
-    """The voltage or the current of a circuit of 2 ohm, by three times as much or less."""
-    c = compiled("circuit")
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("circuit", {"on": 1.0, "U": 12.0, "i": 0.1, "v": 9.0}),  # volts or amperes, at 2 ohm
+        ("buck", {"on": 1.0, "E": 24.0, "i": 2.0, "v": 9.0}),
+        ("gears", {"low": 1.0, "T": 2.0, "w1": 1.0, "w2": 1.0}),
+    ],
+)
+def test_where_residuals_are_about_as_loud_in_both_positions_nothing_is_scaled(
+    name: str, told: dict[str, float]
+) -> None:
+    c = compiled(name)
     engine, model = c.engine(), c.diagnosis_model
     known = hypotheses(engine, model.faults, model.units, {})
-    still = _samples(engine, on=1.0, U=12.0, i=0.1, v=9.0)
-    loud = Loudness(engine, known, model.nominal, still)
+    loud = Loudness(engine, known, model.nominal, _samples(engine, **told))
+    assert len(model.switches) == 2
     for held in model.switches.values():
-        times = loud.beside(held)
-        assert ((times == 1.0) | (np.abs(np.log(times)) < np.log(10.0))).all()
+        assert loud.beside(held).tolist() == [1.0, 1.0]
 
 
 def test_what_parameters_do_to_a_speed_is_nothing_of_what_they_do_to_a_torque() -> None:
